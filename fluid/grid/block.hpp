@@ -1,0 +1,46 @@
+// One block of cells with ghosts: [component][k][j][i], x contiguous, rows padded to whole vectors.
+#pragma once
+#include <cstddef>
+#include <memory>
+
+#include "fluid/grid/grid.hpp"
+
+namespace brisance::fluid {
+
+/// Conserved means of one block. Local cells run from 0 to size-1, ghosts from -ghost[d] to size[d]-1+ghost[d].
+class Block {
+ public:
+  static constexpr Index row_pad = 8;  ///< stored cells before and after a row, whatever the ghost depth
+  Block(Grid const& grid, Index id, Index ghost_depth);
+
+  Index id() const { return id_; }
+  CellIndex first() const { return first_; }  ///< global index of local cell (0, 0, 0)
+  std::array<Index, 3> size() const { return size_; }
+  std::array<Index, 3> ghost() const { return ghost_; }  ///< 0 in absent directions
+  std::array<std::ptrdiff_t, 3> stride() const { return stride_; }
+  std::ptrdiff_t at(Index i, Index j, Index k) const { return i * stride_[0] + j * stride_[1] + k * stride_[2]; }
+  /// Component q at local cell (0, 0, 0); index it with at(i, j, k), negative for ghosts.
+  Real* component(int q) { return origin_[static_cast<std::size_t>(q)]; }
+  Real const* component(int q) const { return origin_[static_cast<std::size_t>(q)]; }
+  State load(Index i, Index j, Index k) const {
+    std::ptrdiff_t const a = at(i, j, k);
+    return {origin_[0][a], origin_[1][a], origin_[2][a], origin_[3][a], origin_[4][a]};
+  }
+  void store(Index i, Index j, Index k, State const& u) {
+    std::ptrdiff_t const a = at(i, j, k);
+    for (std::size_t q = 0; q < 5; ++q) origin_[q][a] = u[q];
+  }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  Index id_;
+  CellIndex first_{};
+  std::array<Index, 3> size_{}, ghost_{};
+  std::array<std::ptrdiff_t, 3> stride_{};
+  std::array<Real*, 5> origin_{};
+  std::size_t bytes_ = 0;
+  struct Free { void operator()(void* p) const; };
+  std::unique_ptr<void, Free> storage_;
+};
+
+}  // namespace brisance::fluid

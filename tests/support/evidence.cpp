@@ -1,0 +1,62 @@
+#include "tests/support/evidence.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace brisance::evidence {
+namespace {
+
+void write_row(std::string const& row) {
+  char const* folder = std::getenv("BRISANCE_EVIDENCE");
+  std::string const path = folder ? folder : "evidence";
+  mkdir(path.c_str(), 0777);
+  int const file = open((path + "/verification.csv").c_str(), O_CREAT | O_RDWR | O_APPEND, 0666);
+  if (file < 0) return;
+  flock(file, LOCK_EX);
+  std::string const head = "id,case,variant,quantity,expected,got,tolerance,verdict\n";
+  std::string const text = (lseek(file, 0, SEEK_END) == 0 ? head : "") + row;
+  if (write(file, text.data(), text.size()) < 0) std::perror("verification.csv");
+  flock(file, LOCK_UN);
+  close(file);
+}
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", x);
+  return text;
+}
+
+bool record(std::string const& id, std::string const& name, std::string const& variant, std::string const& quantity,
+            double expected, double got, std::string const& tolerance, bool ok) {
+  write_row(id + "," + name + "," + variant + "," + quantity + "," + number(expected) + "," + number(got) + "," + tolerance +
+            "," + (ok ? "pass" : "fail") + "\n");
+  if (!ok)
+    std::printf("%s %s [%s] %s: expected %.9g (%s), got %.9g\n", id.c_str(), name.c_str(), variant.c_str(), quantity.c_str(),
+                expected, tolerance.c_str(), got);
+  return ok;
+}
+
+}  // namespace
+
+bool at_most(std::string const& id, std::string const& name, std::string const& variant, std::string const& quantity,
+             double got, double limit) {
+  return record(id, name, variant, quantity, limit, got, "at most", std::isfinite(got) && got <= limit);
+}
+
+bool near(std::string const& id, std::string const& name, std::string const& variant, std::string const& quantity, double got,
+          double expected, double tolerance) {
+  return record(id, name, variant, quantity, expected, got, number(tolerance), std::abs(got - expected) <= tolerance);
+}
+
+bool full() {
+  char const* flag = std::getenv("BRISANCE_FULL");
+  return flag && flag[0] == '1';
+}
+
+}  // namespace brisance::evidence
