@@ -1,0 +1,95 @@
+#include "drivers/scene.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "core/base/errors.hpp"
+
+namespace brisance::drivers {
+namespace {
+
+/// The text of a file, or why it cannot be read.
+struct FileText {
+  bool ok = false;
+  std::string text;
+};
+
+FileText read_file(std::string const& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+  bool const ok = file.is_open() && !file.bad();
+  return {ok, ok ? text.str() : std::strerror(errno)};
+}
+
+std::string read_on_root(std::string const& path, parallel::Comm& comm) {
+  parallel::Bytes bytes;
+  if (comm.rank() == 0) {
+    FileText const file = read_file(path);
+    parallel::put(bytes, file.ok);
+    auto const text = std::as_bytes(std::span(file.text));
+    bytes.insert(bytes.end(), text.begin(), text.end());
+  }
+  comm.broadcast(bytes, 0);
+  std::span<std::byte const> in(bytes);
+  bool const ok = parallel::take<bool>(in);
+  std::string text(in.size(), '\0');
+  std::memcpy(text.data(), in.data(), in.size());
+  require(ok, Failure::scene, path + ": the scene cannot be read: " + text);
+  return text;
+}
+
+/// Sections that need each other.
+void check_sections(Scene const& scene) {
+  require(scene.fluid || scene.solid, scene.at, "the scene has neither [fluid] nor [solid]; add at least one of them");
+  require(
+      !scene.coupling || (scene.fluid && scene.solid), scene.at,
+      std::string("[coupling] needs both [fluid] and [solid]; [") + (scene.fluid ? "solid" : "fluid") + "] is missing");
+}
+
+}  // namespace
+
+void OutputConfig::keys(Keys<OutputConfig>& k) {
+  k("interval", &OutputConfig::interval, "s",
+    "time between two outputs of the fields, the solid and the fragments; not given: at the start and the end only")
+      .above(0);
+  k("checkpoint_interval", &OutputConfig::checkpoint_interval, "s",
+    "time between two checkpoints; not given: only when the run stops")
+      .above(0);
+  k("history_interval", &OutputConfig::history_interval, "s",
+    "time between two rows of history.csv; not given: a row per step")
+      .above(0);
+  k("fields", &OutputConfig::fields, "", "fields of the fluid to write").one_of({"density", "pressure", "velocity"});
+}
+
+void Scene::keys(Keys<Scene>& k) {
+  k("title", &Scene::title, "", "a line for people");
+  k("end_time", &Scene::end_time, "s", "time at which the run ends").required().above(0);
+  k("output", &Scene::output, "", "what is written, and when");
+  k("fluid", &Scene::fluid, "", "a compressible gas on blocks of Cartesian cells");
+  k("solid", &Scene::solid, "", "deformable solids of rigid polyhedral particles and elastic links");
+  k("coupling", &Scene::coupling, "", "what fluid and solid do to each other");
+}
+
+std::string LoadedScene::resolved() const {
+  std::string text = "# " + path + " with every value, in SI units. Written by brisance; it can be run as it is.\n";
+  for (std::string const& assignment : overrides) {
+    text += "# --set ";
+    for (char const c : assignment) text += c == '\n' ? ' ' : c;
+    text += "\n";
+  }
+  return text + "\n" + write_keys(scene);
+}
+
+LoadedScene load_scene(std::string const& path, std::vector<std::string> const& overrides, parallel::Comm& comm) {
+  LoadedScene loaded{{}, path, read_on_root(path, comm), overrides};
+  Tree tree = parse_toml(loaded.text, path);
+  for (std::string const& assignment : overrides) apply_override(tree, assignment);
+  loaded.scene = read_keys<Scene>(tree);
+  check_sections(loaded.scene);
+  return loaded;
+}
+
+}  // namespace brisance::drivers
