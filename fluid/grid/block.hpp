@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <memory>
+#include <span>
 
 #include "fluid/grid/grid.hpp"
 
@@ -31,6 +32,12 @@ class Block {
     for (std::size_t q = 0; q < 5; ++q) origin_[q][a] = u[q];
   }
   std::size_t bytes() const { return bytes_; }
+  /// All stored doubles, ghosts and padding included.
+  std::span<Real> storage() { return {static_cast<Real*>(storage_.get()), bytes_ / sizeof(Real)}; }
+  std::span<Real const> storage() const { return {static_cast<Real const*>(storage_.get()), bytes_ / sizeof(Real)}; }
+  /// Sets every stored cell, ghosts and padding included: lanes beyond the last cell of a row then never compute with
+  /// rubbish.
+  void fill(State const& u);
 
  private:
   Index id_;
@@ -39,7 +46,10 @@ class Block {
   std::array<std::ptrdiff_t, 3> stride_{};
   std::array<Real*, 5> origin_{};
   std::size_t bytes_ = 0;
-  struct Free { void operator()(void* p) const; };
+  std::ptrdiff_t array_length_ = 0, origin_offset_ = 0;
+  struct Free {
+    void operator()(void* p) const;
+  };
   std::unique_ptr<void, Free> storage_;
 };
 

@@ -16,8 +16,8 @@ using State = std::array<Real, 5>;       ///< density, momentum (3), total energ
 struct Grid {
   int dimension = 3;
   CellIndex cells{1, 1, 1};
-  Vec3 low{};                              ///< corner of the box
-  Vec3 spacing{1, 1, 1};                   ///< cell sizes
+  Vec3 low{};             ///< corner of the box
+  Vec3 spacing{1, 1, 1};  ///< cell sizes
   std::array<bool, 3> periodic{};
   std::array<std::vector<Index>, 3> cuts;  ///< first cells of the blocks along each axis, then the number of cells
 
@@ -41,10 +41,15 @@ struct Grid {
     return {id % nx, id / nx % ny, id / (nx * ny)};
   }
   Index block_of(CellIndex c) const;  ///< block that holds an inside cell
+  /// Block beyond the low (side 0) or high (1) end of `block` in direction d, itself when it is its own periodic image;
+  /// -1 at a side of the domain.
+  Index neighbour(Index block, int d, int side) const;
+  CellIndex block_first(Index block) const;  ///< its first cell
+  CellIndex block_size(Index block) const;   ///< its number of cells along each axis
 };
 
-/// Blocks of near-equal sides, each at most `largest_side` cells and at least `ghost` cells.
-/// Errors: scene error when a side of the grid is below the ghost depth.
+/// Sets the cuts: blocks of near-equal sides, each at most `largest_side` cells and at least `ghost` cells; where both
+/// cannot hold, sides exceed `largest_side`.  Errors: scene error when a side of the grid is below the ghost depth.
 void divide(Grid& grid, Index largest_side, Index ghost);
 
 }  // namespace brisance::fluid

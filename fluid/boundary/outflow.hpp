@@ -1,0 +1,14 @@
+// Open side: the upwind flux itself is the characteristic boundary.
+#pragma once
+#include "fluid/grid/grid.hpp"
+
+namespace brisance::fluid {
+
+/// All ghosts copy the last cell.  Source: theory/fluid.md 6.
+struct Outflow {
+  static constexpr char const* name = "outflow";
+  Index source(Index) const { return 0; }
+  State operator()(State const& u, int) const { return u; }
+};
+
+}  // namespace brisance::fluid

@@ -1,0 +1,19 @@
+// Slip wall at rest.
+#pragma once
+#include "fluid/grid/grid.hpp"
+
+namespace brisance::fluid {
+
+/// Ghost k copies the k-th cell inside with its normal momentum negated.  Source: theory/fluid.md 6.
+struct Reflecting {
+  static constexpr char const* name = "reflecting";
+  /// Distance of the source cell from the side, in cells.
+  Index source(Index ghost) const { return ghost; }
+  State operator()(State u, int direction) const {
+    std::size_t const normal = 1 + static_cast<std::size_t>(direction);
+    u[normal] = -u[normal];
+    return u;
+  }
+};
+
+}  // namespace brisance::fluid

@@ -1,0 +1,34 @@
+// Cells as rows of checkpoints and as boxes of output fields.
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fluid/flow.hpp"
+#include "parallel/archive.hpp"
+
+namespace brisance::fluid {
+
+/// Rows of this rank in the block-major numbering: the cells of block b start after all those of blocks 0..b-1, x
+/// fastest.
+std::vector<parallel::Range> cell_ranges(Flow const& flow);
+/// The five conserved means of those rows.
+std::vector<double> pack_cells(Flow const& flow);
+/// Expects: what pack_cells() returned for the same grid and block owners.
+void unpack_cells(Flow& flow, std::span<double const> data);
+
+/// The owned blocks as boxes of the global array, for ArchiveWriter::grid.
+std::vector<parallel::ArchiveWriter::Box> cell_boxes(Flow const& flow);
+
+/// One output field over those boxes.
+struct CellField {
+  int columns = 1;
+  std::vector<double> data;
+};
+/// `name`: density (kg/m3), pressure (Pa), velocity (m/s, 3 columns), energy (total, J/m3), mach (1).
+/// Errors: scene error for another name.
+CellField cell_field(Flow const& flow, std::string const& name);
+/// The names cell_field() knows.
+std::vector<std::string> const& cell_field_names();
+
+}  // namespace brisance::fluid

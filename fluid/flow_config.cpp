@@ -1,0 +1,179 @@
+#include "fluid/flow_config.hpp"
+
+#include "core/base/errors.hpp"
+#include "fluid/flux/sweep.hpp"
+
+namespace brisance::fluid {
+namespace {
+
+constexpr char const* side_names[6] = {"x_low", "x_high", "y_low", "y_high", "z_low", "z_high"};
+constexpr char axis_names[] = "xyz";
+
+std::string place(Location const& at, std::string const& what) {
+  std::string const where = at.text();
+  return where.empty() ? what : where + ": " + what;
+}
+
+void demand(bool ok, Location const& at, std::string const& message) {
+  if (!ok) throw Error(Failure::scene, place(at, message));
+}
+
+void check_region(RegionConfig const& region, std::string const& name) {
+  if (region.shape == "box")
+    demand(region.low && region.high, region.at, name + ": a box needs `low` and `high`.");
+  else if (region.shape == "ball")
+    demand(region.centre && region.radius, region.at, name + ": a ball needs `centre` and `radius`.");
+  else
+    demand(
+        region.point && region.normal && norm2(*region.normal) > 0, region.at,
+        name +
+            ": a half_space needs `point` and a `normal` that is not zero (it fills the side the normal points to).");
+}
+
+void check_charge(ChargeConfig const& charge, std::string const& name) {
+  bool const by_energy = charge.mass && !charge.pressure && charge.radius.has_value() != charge.density.has_value();
+  bool const by_state = !charge.mass && charge.radius && charge.density && charge.pressure;
+  demand(by_energy || by_state, charge.at,
+         name +
+             ": give either `mass` with one of `radius` and `density` (energy from TNT), or the gas state `radius`, "
+             "`density`, `pressure`.");
+}
+
+}  // namespace
+
+std::string const& BoundaryConfig::side(int d, int side) const {
+  std::string const* const all[6] = {&x_low, &x_high, &y_low, &y_high, &z_low, &z_high};
+  return *all[2 * d + side];
+}
+
+void BoundaryConfig::keys(Keys<BoundaryConfig>& k) {
+  std::string BoundaryConfig::*const members[6] = {&BoundaryConfig::x_low, &BoundaryConfig::x_high,
+                                                   &BoundaryConfig::y_low, &BoundaryConfig::y_high,
+                                                   &BoundaryConfig::z_low, &BoundaryConfig::z_high};
+  for (int s = 0; s < 6; ++s)
+    k(side_names[s], members[s], "", "what stands at this side of the grid")
+        .one_of({"reflecting", "outflow", "inflow", "periodic"});
+}
+
+std::optional<GasState> const& InflowConfig::side(int d, int side) const {
+  std::optional<GasState> const* const all[6] = {&x_low, &x_high, &y_low, &y_high, &z_low, &z_high};
+  return *all[2 * d + side];
+}
+
+void InflowConfig::keys(Keys<InflowConfig>& k) {
+  std::optional<GasState> InflowConfig::*const members[6] = {&InflowConfig::x_low, &InflowConfig::x_high,
+                                                             &InflowConfig::y_low, &InflowConfig::y_high,
+                                                             &InflowConfig::z_low, &InflowConfig::z_high};
+  for (int s = 0; s < 6; ++s) k(side_names[s], members[s], "", "state that enters through this side");
+}
+
+void RegionConfig::keys(Keys<RegionConfig>& k) {
+  k("shape", &RegionConfig::shape, "", "form of the region").one_of({"box", "ball", "half_space"});
+  k("low", &RegionConfig::low, "m", "box: its low corner");
+  k("high", &RegionConfig::high, "m", "box: its high corner");
+  k("centre", &RegionConfig::centre, "m", "ball: its centre");
+  k("radius", &RegionConfig::radius, "m", "ball: its radius").above(0);
+  k("point", &RegionConfig::point, "m", "half_space: a point of its plane");
+  k("normal", &RegionConfig::normal, "1", "half_space: direction in which it extends");
+  k("density", &RegionConfig::density, "kg/m3", "initial density").required().at_least(0);
+  k("pressure", &RegionConfig::pressure, "Pa", "initial pressure").required().at_least(0);
+  k("velocity", &RegionConfig::velocity, "m/s", "initial velocity");
+  k("cells", &RegionConfig::cells, "", "exact: cell means by covered volume; whole: cells whose centre is inside")
+      .one_of({"exact", "whole"});
+}
+
+void ChargeConfig::keys(Keys<ChargeConfig>& k) {
+  k("centre", &ChargeConfig::centre, "m", "centre of the balloon").required();
+  k("radius", &ChargeConfig::radius, "m", "radius of the balloon").above(0);
+  k("density", &ChargeConfig::density, "kg/m3", "density of the balloon").above(0);
+  k("mass", &ChargeConfig::mass, "kg", "mass inside the domain (2D: per metre of depth)").above(0);
+  k("pressure", &ChargeConfig::pressure, "Pa", "pressure, for a charge given by its gas state").above(0);
+  k("tnt_factor", &ChargeConfig::tnt_factor, "1", "energy relative to TNT of the same mass (4.184 MJ/kg)").above(0);
+}
+
+void FlowConfig::keys(Keys<FlowConfig>& k) {
+  k("low", &FlowConfig::low, "m", "low corner of the grid");
+  k("high", &FlowConfig::high, "m", "high corner of the grid").required();
+  k("cells", &FlowConfig::cells, "", "cells along each direction; their number is the dimension")
+      .required()
+      .at_least(1);
+  k("block", &FlowConfig::block, "", "largest side of a block in cells; not given: 48 in 3D, 64 in 2D and 1D")
+      .at_least(1);
+  k("gas", &FlowConfig::gas, "", "the gas");
+  k("ambient", &FlowConfig::ambient, "", "initial state outside all regions and charges");
+  k("euler", &FlowConfig::euler, "", "motion of the gas by the OSMP scheme");
+  k("boundary", &FlowConfig::boundary, "", "sides of the grid");
+  k("inflow", &FlowConfig::inflow, "", "states of the inflow sides");
+  k("region", &FlowConfig::region, "", "regions with their own initial state; later ones overwrite earlier ones");
+  k("charge", &FlowConfig::charge, "", "explosive charges as balloons of hot gas");
+}
+
+int dimension(FlowConfig const& config) {
+  int n = static_cast<int>(config.cells.size());
+  demand(n >= 1 && n <= 3, config.at, "fluid.cells: give one, two or three numbers of cells.");
+  while (n > 1 && config.cells[static_cast<std::size_t>(n) - 1] == 1) --n;
+  return n;
+}
+
+Grid make_grid(FlowConfig const& config) {
+  Grid grid;
+  grid.dimension = dimension(config);
+  grid.low = {0, 0, 0};
+  for (int d = 0; d < grid.dimension; ++d) {
+    std::size_t const s = static_cast<std::size_t>(d);
+    Real const length = config.high[d] - config.low[d];
+    demand(length > 0, config.at,
+           std::string("fluid: the grid has no extent along ") + axis_names[d] + ": `high` must exceed `low`.");
+    grid.cells[s] = config.cells[s];
+    grid.low[d] = config.low[d];
+    grid.spacing[d] = length / config.cells[s];
+    bool const low = config.boundary.side(d, 0) == "periodic", high = config.boundary.side(d, 1) == "periodic";
+    demand(low == high, config.boundary.at,
+           std::string("fluid.boundary: ") + side_names[2 * d] + " and " + side_names[2 * d + 1] +
+               " must both be periodic, or neither.");
+    grid.periodic[s] = low;
+  }
+  Index const block = config.block.value_or(grid.dimension == 3 ? 48 : 64);
+  try {
+    divide(grid, block, ghost_depth(config.order()));
+  } catch (Error const& e) {
+    throw Error(e.kind(), place(config.at, e.what()));
+  }
+  return grid;
+}
+
+IdealGas make_gas(FlowConfig const& config) {
+  Real density = config.ambient.density, pressure = config.ambient.pressure;
+  if (!(density > 0) || !(pressure > 0)) {
+    density = pressure = 0;
+    auto const include = [&](Real rho, Real p) { density = max(density, rho), pressure = max(pressure, p); };
+    for (RegionConfig const& region : config.region) include(region.density, region.pressure);
+    for (ChargeConfig const& charge : config.charge) include(charge.density.value_or(0), charge.pressure.value_or(0));
+  }
+  IdealGas gas;
+  gas.gamma = config.gas.gamma;
+  gas.vacuum_density = 1e-10 * density;
+  gas.vacuum_energy = 1e-12 * pressure / gas.kappa();
+  return gas;
+}
+
+void check(FlowConfig const& config) {
+  int const n = dimension(config);
+  for (int d = n; d < 3; ++d)
+    demand(config.low[d] == 0 && config.high[d] == 0, config.at,
+           std::string("fluid: there are no cells along ") + axis_names[d] +
+               ", so low and high must not give it an extent (a "
+               "2D grid is 1 m deep).");
+  for (int d = 0; d < n; ++d)
+    for (int side = 0; side < 2; ++side)
+      demand(config.boundary.side(d, side) != "inflow" || config.inflow.side(d, side), config.boundary.at,
+             std::string("fluid.boundary.") + side_names[2 * d + side] +
+                 " is an inflow without a state: add [fluid.inflow." + side_names[2 * d + side] +
+                 "] with density, pressure and velocity.");
+  for (std::size_t r = 0; r < config.region.size(); ++r)
+    check_region(config.region[r], "fluid.region[" + std::to_string(r) + "]");
+  for (std::size_t c = 0; c < config.charge.size(); ++c)
+    check_charge(config.charge[c], "fluid.charge[" + std::to_string(c) + "]");
+}
+
+}  // namespace brisance::fluid

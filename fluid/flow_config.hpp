@@ -1,0 +1,115 @@
+// The scene's [fluid] section.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/keys.hpp"
+#include "fluid/gas/ideal_gas.hpp"
+#include "fluid/grid/grid.hpp"
+
+namespace brisance::fluid {
+
+struct GasConfig {
+  std::string law = IdealGas::name;
+  double gamma = 1.4;
+  static void keys(Keys<GasConfig>& k) {
+    k("law", &GasConfig::law, "", "equation of state").one_of({IdealGas::name});
+    k("gamma", &GasConfig::gamma, "1", "ratio of specific heats").above(1);
+  }
+};
+
+struct GasState {
+  double density = 1.2;
+  double pressure = 101325;
+  Vec3 velocity{};
+  static void keys(Keys<GasState>& k) {
+    k("density", &GasState::density, "kg/m3", "density; 0 is vacuum").at_least(0);
+    k("pressure", &GasState::pressure, "Pa", "absolute pressure; 0 is vacuum").at_least(0);
+    k("velocity", &GasState::velocity, "m/s", "velocity");
+  }
+};
+
+struct EulerConfig {
+  int order = 5;
+  double cfl = 0.8;
+  Location at;
+  static void keys(Keys<EulerConfig>& k) {
+    k("order", &EulerConfig::order, "", "order of the OSMP flux").one_of({1, 3, 5, 7, 9, 11});
+    k("cfl", &EulerConfig::cfl, "1",
+      "Courant number of each sweep; above 0.9 pairs of steps may be rejected and redone")
+        .above(0)
+        .at_most(0.9);
+  }
+};
+
+/// What stands at the six sides of the grid.
+struct BoundaryConfig {
+  std::string x_low = "reflecting", x_high = "reflecting", y_low = "reflecting", y_high = "reflecting",
+              z_low = "reflecting", z_high = "reflecting";
+  Location at;
+  std::string const& side(int d, int side) const;
+  static void keys(Keys<BoundaryConfig>& k);
+};
+
+/// The given states of the inflow sides.
+struct InflowConfig {
+  std::optional<GasState> x_low, x_high, y_low, y_high, z_low, z_high;
+  std::optional<GasState> const& side(int d, int side) const;
+  static void keys(Keys<InflowConfig>& k);
+};
+
+/// A part of the domain with its own initial state; later regions overwrite earlier ones.
+struct RegionConfig {
+  std::string shape = "box";
+  std::optional<Vec3> low, high, centre, point, normal;
+  std::optional<double> radius;
+  double density = 0, pressure = 0;
+  Vec3 velocity{};
+  std::string cells = "exact";
+  Location at;
+  static void keys(Keys<RegionConfig>& k);
+};
+
+/// A balloon of hot gas at rest (theory/fluid.md 1.3). In 2D masses are per metre of depth.
+struct ChargeConfig {
+  Vec3 centre{};
+  std::optional<double> radius, density, mass, pressure;
+  double tnt_factor = 1;
+  Location at;
+  static void keys(Keys<ChargeConfig>& k);
+};
+
+struct FlowConfig {
+  Vec3 low{}, high{};
+  std::vector<int> cells;
+  std::optional<int> block;
+  GasConfig gas;
+  GasState ambient;
+  std::optional<EulerConfig> euler;
+  BoundaryConfig boundary;
+  InflowConfig inflow;
+  std::vector<RegionConfig> region;
+  std::vector<ChargeConfig> charge;
+  Location at;
+
+  int order() const { return euler ? euler->order : 1; }
+  static void keys(Keys<FlowConfig>& k);
+};
+
+/// Number of directions with more than one cell; trailing ones in `cells` are absent directions.
+int dimension(FlowConfig const& config);
+
+/// The grid and its blocks.  Errors: scene errors for an empty box, sides that disagree about periodicity, too few
+/// cells.
+Grid make_grid(FlowConfig const& config);
+
+/// The gas with its vacuum thresholds, relative to the ambient state or, where that is vacuum, to the largest initial
+/// values. Source: theory/fluid.md 1.5.
+IdealGas make_gas(FlowConfig const& config);
+
+/// Checks what keys alone cannot: shapes have their dimensions, charges are determined, inflow sides have a state.
+/// Errors: scene errors with the place in the scene.
+void check(FlowConfig const& config);
+
+}  // namespace brisance::fluid

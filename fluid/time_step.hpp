@@ -1,0 +1,60 @@
+// Rules of the time step and of the sequence of sweeps (theory/fluid.md 3, 4.6), apart from who applies them.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fluid/flow.hpp"
+
+namespace brisance::fluid {
+
+/// Directions of the sweeps of step n, in order: XYZ|ZYX, YZX|XZY, ZXY|YXZ in 3D (period 6), XY|YX in 2D, X in 1D.
+std::vector<int> directions(int dimension, std::int64_t step);
+
+/// Steps that share one time step and are accepted or rejected together.
+inline int steps_per_pair(int dimension) { return dimension == 1 ? 1 : 2; }
+
+/// Cells to skip: per owned block an array [k][j][i] of bytes, non-zero = skipped; null = none.
+using CellMask = std::function<std::uint8_t const*(Index block_id)>;
+
+/// Largest |u_d| + c per direction over the cells of this rank that are neither vacuum nor masked, m/s; 0 in absent
+/// directions. Not collective: the caller takes the maximum over the ranks.
+std::array<Real, 3> signal_speeds(Flow const& flow, CellMask const& skip = {});
+
+/// cfl * min_d h_d / speed_d, s; infinite where nothing moves.
+Real acoustic_time_step(Grid const& grid, std::array<Real, 3> const& speeds, Real cfl);
+/// Direction that limits it.
+int limiting_direction(Grid const& grid, std::array<Real, 3> const& speeds);
+
+/// The Courant number of the pair that starts with step n: small while the first waves form.
+Real courant_number(int dimension, std::int64_t step, Real nominal);
+
+/// The time step of a pair of `steps` steps from t: shortened when `end` falls inside the pair, so that it is hit
+/// exactly.
+struct PairStep {
+  Real dt;
+  bool reaches_end;
+};
+PairStep shorten(Real t, Real end, Real dt, int steps);
+
+/// The factor on the nominal time step after rejected pairs: halved by each, doubled back by each accepted one.
+class Retry {
+ public:
+  Real factor() const { return factor_; }
+  std::int64_t rejected() const { return rejected_; }
+  /// Halves the factor; false after ten halvings: give up.
+  bool reject();
+  void accept() { factor_ = min(1, 2 * factor_); }
+  void set(Real factor, std::int64_t rejected) { factor_ = factor, rejected_ = rejected; }  ///< from a checkpoint
+
+ private:
+  Real factor_ = 1;
+  std::int64_t rejected_ = 0;
+};
+
+/// "negative density, Courant number above 1".
+std::string describe(std::uint64_t health);
+
+}  // namespace brisance::fluid

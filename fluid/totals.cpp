@@ -1,0 +1,90 @@
+#include "fluid/totals.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace brisance::fluid {
+namespace {
+
+using Sums = std::array<Real, 6>;  // the state, and the size of the momentum
+
+void add(Sums& to, Sums const& part) {
+  for (std::size_t q = 0; q < 6; ++q) to[q] += part[q];
+}
+
+/// Row by row and plane by plane: short sums lose fewer digits than one long one.
+template <class Weight>
+Sums block_sums(Block const& block, Weight const& weight) {
+  auto const [nx, ny, nz] = block.size();
+  CellIndex const first = block.first();
+  Sums sums{};
+  for (Index k = 0; k < nz; ++k) {
+    Sums plane{};
+    for (Index j = 0; j < ny; ++j) {
+      Sums row{};
+      for (Index i = 0; i < nx; ++i) {
+        Real const w = weight(CellIndex{first[0] + i, first[1] + j, first[2] + k});
+        State const u = block.load(i, j, k);
+        for (std::size_t q = 0; q < 5; ++q) row[q] += w * u[q];
+        row[5] += w * std::sqrt(u[1] * u[1] + u[2] * u[2] + u[3] * u[3]);
+      }
+      add(plane, row);
+    }
+    add(sums, plane);
+  }
+  return sums;
+}
+
+template <class Visit>
+void for_cells(Flow const& flow, Visit&& visit) {
+  for (Block const& block : flow.blocks()) {
+    auto const [nx, ny, nz] = block.size();
+    CellIndex const first = block.first();
+    for (Index k = 0; k < nz; ++k)
+      for (Index j = 0; j < ny; ++j)
+        for (Index i = 0; i < nx; ++i) visit(CellIndex{first[0] + i, first[1] + j, first[2] + k}, block.load(i, j, k));
+  }
+}
+
+}  // namespace
+
+Totals totals(Flow const& flow, FluidVolume const& volume) {
+  std::vector<parallel::ExactSum> sums(6);
+  for (Block const& block : flow.blocks()) {
+    Sums part;
+    if (volume) {
+      part = block_sums(block, volume);
+    } else {
+      part = block_sums(block, [](CellIndex) { return 1.0; });
+      for (Real& x : part) x *= flow.grid().cell_volume();
+    }
+    for (std::size_t q = 0; q < 6; ++q) sums[q].add(part[q]);
+  }
+  flow.comm().sum(std::span(sums));
+  return {sums[0].value(), {sums[1].value(), sums[2].value(), sums[3].value()}, sums[4].value(), sums[5].value()};
+}
+
+Extremes extremes(Flow const& flow, FluidVolume const& volume) {
+  IdealGas const& gas = flow.gas();
+  constexpr Real infinite = std::numeric_limits<Real>::infinity();
+  Extremes e{infinite, infinite, 0};
+  for_cells(flow, [&](CellIndex c, State const& u) {
+    if (gas.vacuum(u) || (volume && !(volume(c) > 0))) return;
+    e.density_min = min(e.density_min, u[0]);
+    e.pressure_min = min(e.pressure_min, gas.pressure(u));
+    Real const speed = std::sqrt(u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
+    e.mach_max = max(e.mach_max, speed / gas.sound_speed(u));
+  });
+  return e;
+}
+
+void add_cells(parallel::Digest& digest, Flow const& flow, FluidVolume const& volume) {
+  Grid const& grid = flow.grid();
+  for_cells(flow, [&](CellIndex c, State const& u) {
+    Real const bits[6] = {u[0], u[1], u[2], u[3], u[4], volume ? volume(c) : grid.cell_volume()};
+    digest.add(cell_kind, grid.cell_id(c), bits);
+  });
+}
+
+}  // namespace brisance::fluid
