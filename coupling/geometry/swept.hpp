@@ -17,7 +17,4 @@ struct Swept {
 void swept(Lattice const& lattice, Geometry const& geometry, Piece const& piece, SurfaceTriangle const& triangle,
            std::vector<Swept>& out);
 
-/// Whole swept volume W_f of a piece [m3], from the closed formula of a polygon with bilinear sides.
-Real swept_total(Lattice const& lattice, Geometry const& geometry, Piece const& piece, SurfaceTriangle const& triangle);
-
 }  // namespace brisance::coupling
