@@ -1,0 +1,206 @@
+// What is computed once per cell and once per face: primitives, Roe state, own jumps, low-order flux.
+// Source: theory/fluid.md 2.3, 2.6 (Roe, entropy cure), 4.1 (low-order flux), 4.3 (vacuum).
+#pragma once
+#include "fluid/flux/osmp.hpp"
+#include "fluid/gas/ideal_gas.hpp"
+
+namespace brisance::fluid {
+
+/// Constants of a sweep, one copy per lane.
+template <class V>
+struct SweepConstants {
+  V gamma, kappa, sigma, inv_sigma;
+  V vacuum_density, vacuum_energy;
+  V hlle_limit;  ///< m/s: above this signal speed the low-order flux is LLF (theory/fluid.md 4.1)
+
+  SweepConstants(IdealGas const& gas, Real sigma_)
+      : gamma(gas.gamma),
+        kappa(gas.kappa()),
+        sigma(sigma_),
+        inv_sigma(1 / sigma_),
+        vacuum_density(gas.vacuum_density),
+        vacuum_energy(gas.vacuum_energy),
+        hlle_limit(hlle_courant(gas) / sigma_) {}
+  /// Largest Courant number at which HLLE is known to keep the state admissible.
+  static Real hlle_courant(IdealGas const& gas) { return gas.kappa() <= 2 ? 0.8 : 0.5; }
+};
+
+/// A cell as its two faces see it, sweep coordinates.
+template <class V>
+struct Cell {
+  V state[5], flux[5];
+  V u, v, w, enthalpy, root, sound, signal;  ///< velocity, H, sqrt(density), c, |u| + c
+  V energy;                                  ///< internal, J/m3
+};
+
+/// A face and the low-order state of the cell on its left.
+template <class V>
+struct Face {
+  V jump[5];      ///< of the conserved state, right minus left; 0 where a side is vacuum
+  V strength[5];  ///< the same in the face's own characteristics
+  V u, v, w, enthalpy, sound, inv_sound;
+  V speed1, speed5;       ///< acoustic speeds with the entropy cure, >= 0
+  V room1, room0, room5;  ///< (1 - nu)/(2 sigma) of the three wave speeds
+  V low_flux[5];          ///< positive flux
+  V above_low[5];         ///< mean of the two analytic fluxes minus low_flux
+  V low_state[5];         ///< left cell after a step of the low-order flux
+  V energy_floor;         ///< least density * internal energy the left cell may be left with
+};
+
+/// Third-order correction of a face as a vector of conserved variables: P/2 of theory/fluid.md 2.4, step 1.
+template <class V>
+struct ThirdOrder {
+  V p[5];
+};
+
+/// What a projection needs of a face.
+template <class V>
+struct Frame {
+  V u, v, w, q, kappa_over_2c2, inv_2c;
+};
+/// The two numbers all characteristic components follow from: dp/2c^2 and rho du/2c.
+template <class V>
+struct Acoustic {
+  V pressure, velocity;
+};
+template <class V>
+BRISANCE_INLINE Acoustic<V> project(V const* x, Frame<V> const& f) {
+  V const e = fnma(f.u, x[1], fma(f.q, x[0], x[4])) - fma(f.v, x[2], f.w * x[3]);
+  return {f.kappa_over_2c2 * e, f.inv_2c * fnma(f.u, x[0], x[1])};
+}
+/// Sum of the characteristic components h times the right eigenvectors.
+template <class V>
+BRISANCE_INLINE void assemble(V const* h, Face<V> const& f, V q, V* x) {
+  V const both = h[0] + h[4], apart = f.sound * (h[4] - h[0]);
+  x[0] = both + h[1];
+  x[1] = fma(f.u, x[0], apart);
+  x[2] = fma(f.v, x[0], h[2]);
+  x[3] = fma(f.w, x[0], h[3]);
+  x[4] = fma(f.enthalpy, both, fma(f.u, apart, fma(q, h[1], fma(f.v, h[2], f.w * h[3]))));
+}
+
+/// Twice density times internal energy is what positivity compares; this is density * internal energy.
+template <class V>
+BRISANCE_INLINE V density_energy(V const* x) {
+  return fnma(V(0.5), fma(x[1], x[1], fma(x[2], x[2], x[3] * x[3])), x[0] * x[4]);
+}
+
+/// Velocity, pressure and fluxes of a cell that is not vacuum; lanes that are hold nonsense until `empty_cell`.
+template <class V>
+BRISANCE_INLINE void primitives(Cell<V>& c, SweepConstants<V> const& k) {
+  V const* const x = c.state;
+  V const inverse = V(1.0) / x[0];
+  c.root = sqrt(x[0]);
+  c.u = x[1] * inverse, c.v = x[2] * inverse, c.w = x[3] * inverse;
+  c.energy = fnma(V(0.5), fma(x[1], c.u, fma(x[2], c.v, x[3] * c.w)), x[4]);
+  V const pressure = k.kappa * c.energy, total = x[4] + pressure;
+  c.sound = sqrt(k.gamma * pressure * inverse);
+  c.signal = abs(c.u) + c.sound;
+  c.enthalpy = total * inverse;
+  c.flux[0] = x[1];
+  c.flux[1] = fma(x[1], c.u, pressure);
+  c.flux[2] = x[2] * c.u;
+  c.flux[3] = x[3] * c.u;
+  c.flux[4] = total * c.u;
+}
+/// Lanes where the cell is vacuum or not a number.
+template <class V>
+BRISANCE_INLINE Mask<V> is_vacuum(Cell<V> const& c, SweepConstants<V> const& k) {
+  return !((c.state[0] > k.vacuum_density) & (c.energy > k.vacuum_energy));
+}
+/// Evaluates vacuum lanes as gas at rest without pressure: zero flux in all components, content untouched.
+template <class V>
+[[gnu::noinline, gnu::cold]] void empty_cell(Cell<V>& c, Mask<V> vacuum) {
+  V const zero(0.0);
+  for (V* x : {&c.u, &c.v, &c.w, &c.enthalpy, &c.sound, &c.signal, &c.energy}) *x = select(vacuum, zero, *x);
+  c.root = select(vacuum, V(1.0), c.root);
+  for (V& f : c.flux) f = select(vacuum, zero, f);
+}
+
+/// Low-order state of the left cell and its energy floor, from the fluxes of its two faces.
+template <class V>
+BRISANCE_INLINE void set_low_state(Face<V>& f, V const* left_state, V const* previous_flux, V sigma) {
+  V w[5];
+  BRISANCE_UNROLL for (int k = 0; k < 5; ++k) {
+    w[k] = fnma(sigma, f.low_flux[k] - previous_flux[k], left_state[k]);
+    f.low_state[k] = w[k];
+  }
+  f.energy_floor = V(1e-4) * density_energy(w);
+}
+
+/// Everything of a face that depends on its two cells only, and the low-order state of the cell between it and
+/// `previous`.
+template <int Order, class V>
+BRISANCE_INLINE void form_face(Cell<V> const& l, Cell<V> const& r, Face<V> const& previous, Face<V>& f,
+                               ThirdOrder<V>& third, SweepConstants<V> const& k) {
+  V const inverse = V(1.0) / (l.root + r.root), wl = l.root * inverse, wr = r.root * inverse;
+  V const u = fma(wl, l.u, wr * r.u), v = fma(wl, l.v, wr * r.v), w = fma(wl, l.w, wr * r.w);
+  V const enthalpy = fma(wl, l.enthalpy, wr * r.enthalpy);
+  V const q = V(0.5) * fma(u, u, fma(v, v, w * w));
+  // the Roe average lies above the smaller of the two sound speeds: the max acts on rounding only
+  V const least = min(l.sound, r.sound), sound = sqrt(max(k.kappa * (enthalpy - q), least * least));
+  V const inv_sound = V(1.0) / sound;
+  V jump[5];
+  BRISANCE_UNROLL for (int n = 0; n < 5; ++n) f.jump[n] = jump[n] = r.state[n] - l.state[n];
+  f.u = u, f.v = v, f.w = w, f.enthalpy = enthalpy, f.sound = sound, f.inv_sound = inv_sound;
+
+  V const lambda1 = u - sound, lambda5 = u + sound, outer_left = l.u - l.sound, outer_right = r.u + r.sound;
+  V const gap1 = max(lambda1 - outer_left, (r.u - r.sound) - lambda1);
+  V const gap5 = max(lambda5 - (l.u + l.sound), outer_right - lambda5);
+  V const speed1 = max(abs(lambda1), gap1), speed0 = abs(u), speed5 = max(abs(lambda5), gap5);
+  f.speed1 = speed1, f.speed5 = speed5;
+
+  V const widest = max(l.signal, r.signal);
+  Mask<V> const llf = widest > k.hlle_limit;
+  V const leftmost = select(llf, -widest, min(min(outer_left, lambda1), V(0.0)));
+  V const rightmost = select(llf, widest, max(max(outer_right, lambda5), V(0.0)));
+  V const width = V(1.0) / (rightmost - leftmost);
+  V const skew = V(0.5) * (rightmost + leftmost) * width, spread = rightmost * leftmost * width;
+  BRISANCE_UNROLL for (int n = 0; n < 5; ++n) {
+    V const above = fnma(spread, jump[n], skew * (r.flux[n] - l.flux[n]));
+    f.above_low[n] = above;
+    f.low_flux[n] = fms(V(0.5), l.flux[n] + r.flux[n], above);
+  }
+  set_low_state(f, l.state, previous.low_flux, k.sigma);
+
+  Frame<V> const frame{u, v, w, q, k.kappa * V(0.5) * inv_sound * inv_sound, V(0.5) * inv_sound};
+  Acoustic<V> const a = project(jump, frame);
+  V const strength[5] = {a.pressure - a.velocity, fnma(V(2.0), a.pressure, jump[0]), fnma(v, jump[0], jump[2]),
+                         fnma(w, jump[0], jump[3]), a.pressure + a.velocity};
+  BRISANCE_UNROLL for (int n = 0; n < 5; ++n) f.strength[n] = strength[n];
+  if constexpr (Order >= 3) {
+    V const none(0.0), half(0.5);
+    f.room1 = half * max(k.inv_sigma - speed1, none);
+    f.room0 = half * max(k.inv_sigma - speed0, none);
+    f.room5 = half * max(k.inv_sigma - speed5, none);
+    V const one(1.0), sixth(1.0 / 6);
+    V const nu1 = min(k.sigma * speed1, one), nu0 = min(k.sigma * speed0, one), nu5 = min(k.sigma * speed5, one);
+    V const factor0 = sixth * u * fnma(nu0, nu0, one);
+    V const h[5] = {flip(sixth * speed1 * fnma(nu1, nu1, one), lambda1) * strength[0], factor0 * strength[1],
+                    factor0 * strength[2], factor0 * strength[3],
+                    flip(sixth * speed5 * fnma(nu5, nu5, one), lambda5) * strength[4]};
+    assemble(h, f, q, third.p);
+  }
+}
+
+/// Lanes where a side is vacuum: LLF is the whole flux, and the face is flat in the stencils of others.
+template <int Order, class V>
+[[gnu::noinline, gnu::cold]] void empty_face(Cell<V> const& l, Cell<V> const& r, Mask<V> vacuum,
+                                             Face<V> const& previous, Face<V>& f, ThirdOrder<V>& third, V sigma) {
+  V const zero(0.0), one(1.0), half(0.5), widest = max(l.signal, r.signal);
+  for (int n = 0; n < 5; ++n) {
+    V const dissipation = half * widest * (r.state[n] - l.state[n]);
+    f.low_flux[n] = select(vacuum, fms(half, l.flux[n] + r.flux[n], dissipation), f.low_flux[n]);
+  }
+  set_low_state(f, l.state, previous.low_flux, sigma);
+  for (V* array : {f.jump, f.strength, f.above_low})
+    for (int n = 0; n < 5; ++n) array[n] = select(vacuum, zero, array[n]);
+  for (V* x : {&f.u, &f.v, &f.w, &f.enthalpy, &f.speed1, &f.speed5}) *x = select(vacuum, zero, *x);
+  if constexpr (Order >= 3) {
+    for (V& p : third.p) p = select(vacuum, zero, p);
+    for (V* x : {&f.room1, &f.room0, &f.room5}) *x = select(vacuum, zero, *x);
+  }
+  for (V* x : {&f.sound, &f.inv_sound}) *x = select(vacuum, one, *x);
+}
+
+}  // namespace brisance::fluid

@@ -1,0 +1,308 @@
+// One rolling pass of OSMP along a bundle of pencils, one pencil per lane: a new cell gives its primitives, then one
+// face; the flux `reach` faces behind has then its whole window, and the cell before it its new state. Source:
+// theory/fluid.md 2.4, 4.2; arrangement: theory/fluid_speed.md 4.
+#pragma once
+#include <array>
+#include <cstddef>
+
+#include "fluid/flux/positivity.hpp"
+#include "fluid/flux/sweep.hpp"
+
+namespace brisance::fluid {
+
+/// The last N items of a stream. The table of slots stands twice, so that no index is ever reduced.
+template <class T, int N>
+class Ring {
+ public:
+  Ring() {
+    for (int i = 0; i < 2 * N; ++i) slot_[i] = &item_[i % N];
+  }
+  Ring(Ring const&) = delete;
+  Ring& operator=(Ring const&) = delete;
+  void restart() { base_ = 0; }
+  /// 0: the oldest, N - 1: the newest.
+  BRISANCE_INLINE T& operator[](int age) { return *slot_[base_ + age]; }
+  BRISANCE_INLINE void advance() { base_ = base_ + 1 == N ? 0 : base_ + 1; }
+
+ private:
+  alignas(64) T item_[N];
+  T* slot_[2 * N];
+  std::ptrdiff_t base_ = 0;
+};
+
+/// Where the cells of a bundle stand: component q of cell c, all lanes, at in[q] + c * in_stride. May be the same
+/// place.
+struct PencilData {
+  Index n;
+  std::array<Real const*, 5> in;
+  std::array<Real*, 5> out;
+  std::ptrdiff_t in_stride, out_stride;
+  /// Lanes that stand for cells of their own; those whose low face of cell n-1, and whose high face, is nobody else's
+  /// to count.
+  std::uint32_t valid, counted_last, counted_high;
+};
+
+/// Runs between walls: what the caller wants back, and the order of each face. Arrays as in LineBundle.
+struct RunData {
+  Real* flux;
+  Real* pressure;
+  std::uint8_t const* face_order;
+};
+
+/// What the pass saw, lane by lane; kept over the bundles of a block by the caller.
+template <class V>
+struct PencilReport {
+  V signal = V(0.0);
+  std::int64_t fallback = 0, fallback_high = 0;
+  std::uint64_t health = 0;
+  int bad_lane = 0;
+  Index bad_cell = 0;
+  V flux_low[5], flux_high[5];
+};
+
+/// Order, value type and whether the pencils are runs between walls, fixed at compile time.
+template <int Order, class V, bool Runs>
+class Pencil {
+ public:
+  static constexpr int reach = Stencil<Order>::reach, half = Stencil<Order>::half, ghosts = Stencil<Order>::ghosts;
+  static constexpr int lanes = lanes_of<V>;
+
+  /// Advances cells 0..n-1 by one sweep; `report` gathers.
+  void sweep(PencilData const& data, RunData const* runs, Real sigma, IdealGas const& gas, PencilReport<V>& report) {
+    SweepConstants<V> const k(gas, sigma);
+    faces_.restart(), thirds_.restart();
+    for (V& x : faces_[newest - 1].low_flux)
+      x = V(0.0);  // of the first face's missing neighbour: no result depends on it
+    Cell<V> left, right;
+    V before[5];
+    fetch(data, runs, -ghosts, left, k, sigma, report);
+    for (Index f = -reach; f < reach; ++f) {
+      fetch(data, runs, f, right, k, sigma, report);
+      push(left, right, k);
+      left = right;
+      faces_.advance(), thirds_.advance();
+    }
+    for (Index f = 0; f <= data.n; ++f) {
+      fetch(data, runs, f + reach, right, k, sigma, report);
+      push(left, right, k);
+      left = right;
+      V difference[5];
+      flux(difference, k, runs ? runs->face_order + std::ptrdiff_t{f} * lanes : nullptr);
+      keep_positive(difference, sigma, f, data, runs, report);
+      if constexpr (Runs) {
+        give_flux(difference, runs->flux + std::ptrdiff_t{f} * 5 * lanes);
+      } else if (f == 0 || f == data.n) {
+        V* const end = f == 0 ? report.flux_low : report.flux_high;
+        BRISANCE_UNROLL for (int n = 0; n < 5; ++n) end[n] = faces_[here].low_flux[n] + difference[n];
+      }
+      if (f > 0) update(difference, before, data, f - 1, k, gas, report);
+      BRISANCE_UNROLL for (int n = 0; n < 5; ++n) before[n] = difference[n];
+      faces_.advance(), thirds_.advance();
+    }
+  }
+
+ private:
+  static constexpr int here = 2, newest = reach + 2;  ///< places in the ring of faces
+  static constexpr int third_here = half;             ///< in the ring of corrections
+  Ring<Face<V>, reach + 3> faces_;
+  Ring<ThirdOrder<V>, reach + half + 1> thirds_;
+  Mask<V> vacuum_left_{}, vacuum_right_{};
+  bool any_vacuum_left_ = false, any_vacuum_right_ = false;
+
+  /// Loads and evaluates a cell. In y and z the pencil walks with a stride the hardware does not follow: ask 12 cells
+  /// ahead.
+  BRISANCE_INLINE void fetch(PencilData const& data, RunData const* runs, Index c, Cell<V>& cell,
+                             SweepConstants<V> const& k, Real sigma, PencilReport<V>& report) {
+    BRISANCE_UNROLL for (std::size_t q = 0; q < 5; ++q) {
+      Real const* const p = data.in[q] + c * data.in_stride;
+      cell.state[q] = load<V>(p);
+      __builtin_prefetch(p + 12 * data.in_stride);
+    }
+    primitives(cell, k);
+    vacuum_left_ = vacuum_right_, any_vacuum_left_ = any_vacuum_right_;
+    vacuum_right_ = is_vacuum(cell, k);
+    any_vacuum_right_ = any_of(vacuum_right_);
+    if (any_vacuum_right_) [[unlikely]] {
+      Cell<V> copy = cell;
+      empty_cell(copy, vacuum_right_);
+      cell = copy;
+    }
+    if (c < 0 || c >= data.n) return;
+    if constexpr (Runs) {
+      store(runs->pressure + std::ptrdiff_t{c} * lanes, k.kappa * cell.energy);
+      report.signal = max(report.signal, select(inside(runs, c), cell.signal, V(0.0)));
+    } else {
+      report.signal = max(report.signal, cell.signal);
+      if (auto const fast = cell.signal > k.inv_sigma; any_of(fast)) [[unlikely]]
+        note(static_cast<std::uint64_t>(Health::courant), bits_of(fast) & data.valid, c, report);
+    }
+    (void)sigma;
+  }
+
+  /// The face between the two cells, newest of the ring.
+  BRISANCE_INLINE void push(Cell<V> const& left, Cell<V> const& right, SweepConstants<V> const& k) {
+    Face<V>&face = faces_[newest], &previous = faces_[newest - 1];
+    ThirdOrder<V>& third = thirds_[reach + half];
+    form_face<Order>(left, right, previous, face, third, k);
+    if (any_vacuum_left_ || any_vacuum_right_) [[unlikely]] {
+      Cell<V> const l = left, r = right;
+      empty_face<Order>(l, r, vacuum_left_ | vacuum_right_, previous, face, third, k.sigma);
+    }
+  }
+
+  /// Flux of the face in the middle of the window, minus its low-order flux.
+  BRISANCE_INLINE void flux(V* difference, SweepConstants<V> const& k, std::uint8_t const* face_order) {
+    Face<V> const& f = faces_[here];
+    V const inv_2c = V(0.5) * f.inv_sound, q = V(0.5) * fma(f.u, f.u, fma(f.v, f.v, f.w * f.w));
+    Frame<V> const frame{f.u, f.v, f.w, q, k.kappa * inv_2c * f.inv_sound, inv_2c};
+    V part[5];
+    if constexpr (Order == 1) {
+      V const speed0 = V(-0.5) * abs(f.u);
+      part[0] = V(-0.5) * f.speed1 * f.strength[0];
+      part[4] = V(-0.5) * f.speed5 * f.strength[4];
+      BRISANCE_UNROLL for (int n = 1; n < 4; ++n) part[n] = speed0 * f.strength[n];
+    } else {
+      characteristic_fluxes(f, frame, part, k, face_order);
+    }
+    V total[5];
+    assemble(part, f, q, total);
+    BRISANCE_UNROLL for (int n = 0; n < 5; ++n) difference[n] = f.above_low[n] + total[n];
+  }
+
+  BRISANCE_INLINE void characteristic_fluxes(Face<V> const& f, Frame<V> const& frame, V* part,
+                                             SweepConstants<V> const& k, std::uint8_t const* face_order) {
+    Acoustic<V> jumps[5], thirds[2 * half + 1];
+    V const *x[5], *p[2 * half + 1];
+    BRISANCE_UNROLL for (int z = 0; z < 5; ++z) {
+      x[z] = faces_[z].jump;
+      if (z != here) jumps[z] = project(x[z], frame);
+    }
+    BRISANCE_UNROLL for (int z = 0; z <= 2 * half; ++z) {
+      p[z] = thirds_[z].p;
+      thirds[z] = project(p[z], frame);
+    }
+    Face<V> const &low = faces_[here - 1], &high = faces_[here + 1];
+    V const two(2.0);
+    auto run = [&](auto const& keep) __attribute__((always_inline)) {
+      {
+        auto const wave = make_wave(f.u - f.sound, f.speed1, low.room1, high.room1, k);
+        part[0] = field_flux<Order>(
+            wave, f.strength[0],
+            [&](int z) __attribute__((always_inline)) { return jumps[here + z].pressure - jumps[here + z].velocity; },
+            [&](int z) __attribute__((always_inline)) { return thirds[half + z].pressure - thirds[half + z].velocity; },
+            keep);
+      }
+      {
+        auto const wave = make_wave(f.u + f.sound, f.speed5, low.room5, high.room5, k);
+        part[4] = field_flux<Order>(
+            wave, f.strength[4],
+            [&](int z) __attribute__((always_inline)) { return jumps[here + z].pressure + jumps[here + z].velocity; },
+            [&](int z) __attribute__((always_inline)) { return thirds[half + z].pressure + thirds[half + z].velocity; },
+            keep);
+      }
+      auto const wave = make_wave(f.u, abs(f.u), low.room0, high.room0, k);
+      part[1] = field_flux<Order>(
+          wave, f.strength[1],
+          [&](int z) __attribute__((always_inline)) { return fnma(two, jumps[here + z].pressure, x[here + z][0]); },
+          [&](int z) __attribute__((always_inline)) { return fnma(two, thirds[half + z].pressure, p[half + z][0]); },
+          keep);
+      part[2] = field_flux<Order>(
+          wave, f.strength[2],
+          [&](int z) __attribute__((always_inline)) { return fnma(frame.v, x[here + z][0], x[here + z][2]); },
+          [&](int z) __attribute__((always_inline)) { return fnma(frame.v, p[half + z][0], p[half + z][2]); }, keep);
+      part[3] = field_flux<Order>(
+          wave, f.strength[3],
+          [&](int z) __attribute__((always_inline)) { return fnma(frame.w, x[here + z][0], x[here + z][3]); },
+          [&](int z) __attribute__((always_inline)) { return fnma(frame.w, p[half + z][0], p[half + z][3]); }, keep);
+    };
+    if constexpr (Runs && Order > 5) {
+      V const order = spread(face_order);
+      run([order](int q, V sum)
+              __attribute__((always_inline)) { return q == 2 ? sum : select(order >= V(2.0 * q + 1), sum, V(0.0)); });
+    } else {
+      run(AllOrders{});
+    }
+  }
+
+  static BRISANCE_INLINE Wave<Order, V> make_wave(V lambda, V speed, V room_low, V room_high,
+                                                  SweepConstants<V> const& k) {
+    Wave<Order, V> wave;
+    V const nu = min(k.sigma * speed, V(1.0));
+    wave.leftward = negative(lambda);
+    wave.sign = lambda;
+    wave.half_speed = V(0.5) * speed;
+    wave.second = fnma(wave.half_speed, nu, wave.half_speed);
+    wave.room = select(wave.leftward, room_high, room_low);
+    set_ratios(wave, nu);
+    return wave;
+  }
+
+  /// Both cells of the face take twice the difference alone: if that leaves them admissible, so does the whole step.
+  BRISANCE_INLINE void keep_positive(V* difference, Real sigma, Index f, PencilData const& data, RunData const* runs,
+                                     PencilReport<V>& report) {
+    Face<V> const &face = faces_[here], &next = faces_[here + 1];
+    V const twice(2 * sigma);
+    V const margin = min(positivity_margin(face.low_state, face.energy_floor, difference, -twice),
+                         positivity_margin(next.low_state, next.energy_floor, difference, twice));
+    Mask<V> const failed = !(margin >= V(0.0));
+    if (any_of(failed)) [[unlikely]] {
+      V copy[5];
+      for (int n = 0; n < 5; ++n) copy[n] = difference[n];
+      std::uint32_t limited = limit_face(copy, face.low_state, next.low_state, 2 * sigma, bits_of(failed));
+      limited &= f == data.n ? data.counted_high : f == data.n - 1 ? data.counted_last : data.valid;
+      if constexpr (Runs) limited &= existing_faces(runs, f);
+      (f < data.n ? report.fallback : report.fallback_high) += __builtin_popcount(limited);
+      for (int n = 0; n < 5; ++n) difference[n] = copy[n];
+    }
+  }
+
+  BRISANCE_INLINE void update(V const* difference, V const* before, PencilData const& data, Index c,
+                              SweepConstants<V> const& k, IdealGas const& gas, PencilReport<V>& report) {
+    V x[5];
+    Face<V> const& face = faces_[here];
+    BRISANCE_UNROLL for (std::size_t q = 0; q < 5; ++q) {
+      x[q] = fnma(k.sigma, difference[q] - before[q], face.low_state[q]);
+      store(data.out[q] + c * data.out_stride, x[q]);
+    }
+    if constexpr (!Runs) {
+      if (auto const mask = suspect(x); any_of(mask)) [[unlikely]]
+        judge_cell(data, c, bits_of(mask) & data.valid, gas, report);
+    }
+  }
+
+  BRISANCE_INLINE void give_flux(V const* difference, Real* p) {
+    BRISANCE_UNROLL for (int n = 0; n < 5; ++n) store(p + n * lanes, faces_[here].low_flux[n] + difference[n]);
+  }
+
+  [[gnu::noinline, gnu::cold]] void judge_cell(PencilData const& data, Index c, std::uint32_t lanes_asked,
+                                               IdealGas const& gas, PencilReport<V>& report) {
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (!(lanes_asked >> lane & 1)) continue;
+      State u;
+      for (std::size_t q = 0; q < 5; ++q) u[q] = data.out[q][c * data.out_stride + lane];
+      if (std::uint64_t const bits = judge(u, gas)) note(bits, 1u << lane, c, report);
+    }
+  }
+  [[gnu::noinline, gnu::cold]] void note(std::uint64_t health, std::uint32_t where, Index c, PencilReport<V>& report) {
+    if (where == 0) return;
+    if (report.health == 0) report.bad_lane = __builtin_ctz(where), report.bad_cell = c;
+    report.health |= health;
+  }
+
+  /// Orders of a face as numbers of the lanes.
+  static V spread(std::uint8_t const* face_order) {
+    Real order[lanes];
+    for (int lane = 0; lane < lanes; ++lane) order[lane] = face_order[lane];
+    return load<V>(order);
+  }
+  /// Lanes in which cell c belongs to the run: both its faces exist (order above 0).
+  static Mask<V> inside(RunData const* runs, Index c) {
+    std::uint8_t const* const p = runs->face_order + std::ptrdiff_t{c} * lanes;
+    return (spread(p) > V(0.0)) & (spread(p + lanes) > V(0.0));
+  }
+  static std::uint32_t existing_faces(RunData const* runs, Index f) {
+    return bits_of(spread(runs->face_order + std::ptrdiff_t{f} * lanes) > V(0.0));
+  }
+};
+
+}  // namespace brisance::fluid
