@@ -146,14 +146,13 @@ class UnitParser {
   std::size_t at_ = 0;
 };
 
-/// True when a value of dimension `given` may be used for a key of dimension `wanted`: angles are plain numbers in
-/// rates.
+/// True when a value of dimension `given` may be used for a key of dimension `wanted`. Angles are numbers: rad/s fits
+/// 1/s and 1 fits rad; but a plain number is not an angle.
 bool fits(Dimension given, Dimension wanted) {
-  bool const same_angle = given.power[4] == wanted.power[4];
+  bool const given_angle = given.power[4] != 0, wanted_angle = wanted.power[4] != 0;
   given.power[4] = wanted.power[4] = 0;
-  if (given != wanted) return false;
-  bool const rate = wanted != Dimension{};
-  return same_angle || rate || given.power[4] == 0;
+  bool const plain = wanted == Dimension{};
+  return given == wanted && !(given_angle && !wanted_angle && plain);
 }
 
 double parse_number(std::string_view digits, int shift) {
@@ -194,7 +193,8 @@ double parse_quantity(std::string_view text, std::string_view si_unit) {
   auto const length = static_cast<std::size_t>(end - text.data());
   std::string_view const unit_text = trimmed(text.substr(length));
   if (unit_text.empty()) return parse_number(text.substr(0, length), 0);
-  Unit const unit = parse_unit(unit_text);
+  bool const quotient = unit_text.starts_with('/');  // "3 /s"
+  Unit const unit = parse_unit(quotient ? "1" + std::string(unit_text) : std::string(unit_text));
   if (!fits(unit.dimension, parse_unit(si_unit).dimension))
     throw UnitError("'" + std::string(unit_text) + "' has the wrong dimension");
   return parse_number(text.substr(0, length), unit.exponent) * unit.factor;

@@ -1,0 +1,11 @@
+# cmake -DROOT=<sources> -P check_format.cmake: all sources are as clang-format 14 writes them.
+find_program(CLANG_FORMAT clang-format-14 REQUIRED)
+set(files "")
+foreach(folder core parallel fluid coupling drivers tests)
+  file(GLOB_RECURSE found ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp)
+  list(APPEND files ${found})
+endforeach()
+execute_process(COMMAND ${CLANG_FORMAT} --dry-run -Werror ${files} RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "not formatted; run clang-format-14 -i on the files above")
+endif()

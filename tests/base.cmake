@@ -1,0 +1,2 @@
+brisance_test(base_test SOURCES unit/core/base/keys_test.cpp unit/core/base/units_test.cpp unit/core/base/errors_test.cpp
+              LINKS brisance::base LABELS unit)
