@@ -1,0 +1,43 @@
+// The links of a rank, four to a block and field by field; the two passes that turn poses into forces.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/solid/links/link_law.hpp"
+#include "core/solid/particles.hpp"
+
+namespace brisance::solid {
+
+/// Four links: ends, then every field of LinkRest for the four lanes.  576 bytes, nine cache lines.
+struct alignas(64) LinkBlock {
+  std::array<Index, lanes> i{}, j{};
+  std::array<std::array<double, lanes>, 17> rest{};
+};
+
+class LinkStore {
+ public:
+  /// Adds a link at the end; add them in global order.
+  void add(Index i, Index j, LinkRest<double> const& rest);
+  std::size_t count() const { return count_; }
+  std::size_t bytes() const { return blocks_.size() * sizeof(LinkBlock); }
+  Index end_i(std::size_t link) const { return blocks_[link / lanes].i[link % lanes]; }
+  Index end_j(std::size_t link) const { return blocks_[link / lanes].j[link % lanes]; }
+  LinkRest<double> rest(std::size_t link) const;
+
+  /// Adds to `opened` of both ends the volume their links open, m3.
+  void add_opened_volume(std::span<Pose const> pose, std::span<double> opened) const;
+  /// Adds the forces and torques of all links to both ends. `pressure`: lambda epsilon, Pa.
+  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench) const;
+
+ private:
+  // Every particle receives its links one after the other in the order of the store, which is the global order: the
+  // sums have the same bits whatever the lane or rank. Lanes left over in the last block have no stiffness and add
+  // zero.
+  std::vector<LinkBlock> blocks_;
+  std::size_t count_ = 0;
+};
+
+/// Ends of a link from two poses.
+LinkEnds<double> ends_of(Pose const& i, Pose const& j);
+
+}  // namespace brisance::solid

@@ -1,0 +1,261 @@
+#include "core/solid/mesh.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "core/solid/overlap.hpp"
+#include "core/solid/shapes/cells.hpp"
+#include "core/solid/space_curve.hpp"
+#include "parallel/error.hpp"
+
+namespace brisance::solid {
+namespace {
+
+std::string text(Vec3 const& p) {
+  char s[96];
+  std::snprintf(s, sizeof s, "(%.6g, %.6g, %.6g) m", p.x, p.y, p.z);
+  return s;
+}
+
+bool inside(Vec3 const& p, Vec3 const& low, Vec3 const& high, int dimension, Real slack = 0) {
+  for (int d = 0; d < dimension; ++d)
+    if (p[d] < low[d] - slack || p[d] > high[d] + slack) return false;
+  return true;
+}
+
+/// Makes the components out of the plane of a slab exactly zero, so that nothing ever leaks out of it.
+void flatten(Shape& s, int dimension) {
+  for (int d = dimension; d < 3; ++d) {
+    for (Vec3& v : s.polyhedron.vertices) v[d] = v[d] > 0 ? 0.5 : -0.5;
+    s.pole[d] = 0;
+    auto diagonal_only = [&](Mat3& m) {
+      for (int e = 0; e < 3; ++e)
+        if (e != d) m[d][e] = m[e][d] = 0;
+    };
+    diagonal_only(s.second);
+    for (FaceGeometry& f : s.faces) {
+      if (std::abs(f.normal[d]) > 0.5) continue;
+      f.normal[d] = f.centroid[d] = 0;
+      diagonal_only(f.second);
+    }
+  }
+}
+
+/// Places of the cells of all bodies before numbering.
+struct Draft {
+  std::vector<Cells> cells;
+  std::vector<Index> body_of;
+  std::vector<std::size_t> cell_of, offset;  // offset of the first cell of a body
+  std::vector<Vec3> centre;
+};
+
+Draft tessellate_all(SolidConfig const& config, int dimension) {
+  Draft draft;
+  for (std::size_t b = 0; b < config.body.size(); ++b) {
+    BodyConfig const& body = config.body[b];
+    Cells cells = tessellate(body, dimension);
+    if (dimension < 3)
+      for (Shape& s : cells.shapes) flatten(s, dimension);
+    for (std::size_t c = 0; c < cells.count(); ++c) {
+      for (int d = dimension; d < 3; ++d) cells.centre[c][d] = 0.5;
+      // A shape used by many cells is looked at once, at its first one.
+      auto const shape = static_cast<std::size_t>(cells.shape[c]);
+      if (c == 0 || cells.shapes.size() > 1)
+        if (auto const f = fault(cells.shapes[shape].polyhedron))
+          throw Error(Failure::scene,
+                      body.at.text() + ": solid.body \"" + body.name + "\": cell " + std::to_string(c) + " is " +
+                          f->what + " at " + text(cells.centre[c] + f->place) +
+                          ". Particles must be closed convex polyhedra: change the corners or the cells.");
+    }
+    draft.offset.push_back(draft.centre.size());
+    for (std::size_t c = 0; c < cells.count(); ++c) {
+      draft.body_of.push_back(static_cast<Index>(b));
+      draft.cell_of.push_back(c);
+      draft.centre.push_back(cells.centre[c]);
+    }
+    draft.cells.push_back(std::move(cells));
+  }
+  return draft;
+}
+
+/// The face of a cell behind which `other` lies; `twin` is its centroid seen from the other cell (a pair of cells may
+/// share several faces).
+int face_towards(Cells const& cells, std::size_t c, Index other, Vec3 const& twin) {
+  Shape const& s = cells.shapes[static_cast<std::size_t>(cells.shape[c])];
+  int best = -1;
+  Real nearest = 0;
+  for (std::size_t f = 0; f < s.faces.size(); ++f) {
+    if (cells.neighbour[cells.first[c] + f] != other) continue;
+    Real const d = norm2(cells.centre[c] + s.faces[f].centroid - twin);
+    if (best < 0 || d < nearest) best = static_cast<int>(f), nearest = d;
+  }
+  return best;
+}
+
+Link half_link(Mesh const& mesh, GlobalId p, int face, Real distance) {
+  Real const area = mesh.face(p, face).area;
+  return {p, Link::wall, face, -1, distance, 1, 2 * mesh.material(p).shear() * area / distance};
+}
+
+void index_links(Mesh& mesh) {
+  auto const n = mesh.particles.size();
+  // Links of one particle: by (i, j), the walls after all others.
+  std::sort(mesh.links.begin(), mesh.links.end(), [n](Link const& a, Link const& b) {
+    auto const key = [n](Link const& l) { return l.j == Link::wall ? static_cast<GlobalId>(n) : l.j; };
+    return std::tuple(a.i, key(a), a.face_i) < std::tuple(b.i, key(b), b.face_i);
+  });
+  mesh.first_link.assign(n + 1, 0);
+  auto for_each_end = [&](auto&& visit) {
+    for (std::size_t l = 0; l < mesh.links.size(); ++l) {
+      visit(static_cast<std::size_t>(mesh.links[l].i), l);
+      if (mesh.links[l].j != Link::wall) visit(static_cast<std::size_t>(mesh.links[l].j), l);
+    }
+  };
+  for_each_end([&](std::size_t p, std::size_t) { ++mesh.first_link[p + 1]; });
+  for (std::size_t p = 0; p < n; ++p) mesh.first_link[p + 1] += mesh.first_link[p];
+  mesh.link_of.resize(mesh.first_link[n]);
+  auto next = mesh.first_link;
+  for_each_end([&](std::size_t p, std::size_t l) { mesh.link_of[next[p]++] = l; });
+}
+
+/// Links through shared faces; all other faces are boundary.
+void connect(Mesh& mesh, Draft const& draft, SolidConfig const& config, std::vector<GlobalId> const& number) {
+  std::vector<std::size_t> draft_of(mesh.particles.size());
+  for (std::size_t a = 0; a < number.size(); ++a) draft_of[static_cast<std::size_t>(number[a])] = a;
+  mesh.first_free.assign(1, 0);
+  for (GlobalId p = 0; p < mesh.size(); ++p) {
+    std::size_t const a = draft_of[static_cast<std::size_t>(p)];
+    auto const b = static_cast<std::size_t>(draft.body_of[a]);
+    Cells const& cells = draft.cells[b];
+    std::size_t const c = draft.cell_of[a];
+    Shape const& s = mesh.shape(p);
+    for (std::size_t f = 0; f < s.faces.size(); ++f) {
+      if (is_side_of_slab(s.faces[f], mesh.dimension)) continue;
+      int const face = static_cast<int>(f);
+      Index const other = cells.neighbour[cells.first[c] + f];
+      if (other >= 0 && config.links) {
+        auto const o = static_cast<std::size_t>(other);
+        GlobalId const q = number[draft.offset[b] + o];
+        if (q < p) continue;  // made from its other end
+        Vec3 const place = mesh.particle(p).centre + s.faces[f].centroid;
+        int const twin = face_towards(cells, o, static_cast<Index>(c), place);
+        if (twin < 0) continue;  // a sliver of a face that rounding left on one side only
+        Vec3 const pole_i = mesh.particle(p).centre + s.pole, pole_j = mesh.particle(q).centre + mesh.shape(q).pole;
+        Vec3 const n = s.faces[f].normal;
+        Real const length = dot(pole_j - pole_i, n);
+        mesh.links.push_back({p, q, face, twin, length, dot(place - pole_i, n) / length,
+                              2 * mesh.material(p).shear() * s.faces[f].area / length});
+        continue;
+      }
+      FreeFace free{p, face, dot(s.faces[f].centroid - s.pole, s.faces[f].normal), false};
+      for (HoldConfig const& box : config.body[b].clamp) {
+        bool all = config.links.has_value();
+        for (int v : s.polyhedron.faces[f])
+          all = all && inside(mesh.particle(p).centre + s.polyhedron.vertices[static_cast<std::size_t>(v)], box.low,
+                              box.high, mesh.dimension, 1e-9 * free.distance);
+        free.clamped = free.clamped || all;
+      }
+      if (free.clamped) mesh.links.push_back(half_link(mesh, p, face, free.distance));
+      mesh.free_faces.push_back(free);
+    }
+    mesh.first_free.push_back(mesh.free_faces.size());
+  }
+  index_links(mesh);
+}
+
+}  // namespace
+
+bool is_side_of_slab(FaceGeometry const& face, int dimension) {
+  for (int d = dimension; d < 3; ++d)
+    if (std::abs(face.normal[d]) > 0.5) return true;
+  return false;
+}
+
+Mat3 bending_tensor(Mesh const& mesh, Link const& link) {
+  FaceGeometry const& f = mesh.face(link.i, link.face_i);
+  Material const& m = mesh.material(link.i);
+  Real const polar = trace(f.second);
+  Mat3 const nn = outer(f.normal, f.normal);
+  Mat3 const c =
+      (mesh.torsion_ratio * m.shear() * polar) * nn + m.young_modulus * (polar * (Mat3::identity() - nn) - f.second);
+  return (2 / link.rest_length) * c;
+}
+
+Mesh build_mesh(SolidConfig const& config, int dimension) {
+  Mesh mesh;
+  mesh.dimension = dimension;
+  if (config.links) mesh.torsion_ratio = config.links->torsion_ratio;
+  std::map<std::string, Index> material_of;
+  for (auto const& [name, m] : config.material) {
+    material_of[name] = static_cast<Index>(mesh.materials.size());
+    mesh.materials.push_back({name, m.density, m.young_modulus, m.poisson_ratio});
+  }
+  for (BodyConfig const& body : config.body)
+    require(material_of.contains(body.material), Failure::scene,
+            body.at.text() + ": solid.body \"" + body.name + "\": material \"" + body.material +
+                "\" is not one of solid.material. Add it there or correct the name.");
+  Draft const draft = tessellate_all(config, dimension);
+
+  std::vector<std::size_t> const order = curve_order(draft.centre);
+  std::vector<GlobalId> number(order.size());
+  for (std::size_t g = 0; g < order.size(); ++g) number[order[g]] = static_cast<GlobalId>(g);
+  std::vector<Index> first_shape;
+  for (Cells const& cells : draft.cells) {
+    first_shape.push_back(static_cast<Index>(mesh.shapes.size()));
+    mesh.shapes.insert(mesh.shapes.end(), cells.shapes.begin(), cells.shapes.end());
+  }
+
+  mesh.particles.resize(order.size());
+  for (std::size_t a = 0; a < order.size(); ++a) {
+    auto const b = static_cast<std::size_t>(draft.body_of[a]);
+    BodyConfig const& body = config.body[b];
+    Particle& p = mesh.particles[static_cast<std::size_t>(number[a])];
+    p.body = draft.body_of[a];
+    p.material = material_of.at(body.material);
+    p.shape = first_shape[b] + draft.cells[b].shape[draft.cell_of[a]];
+    p.centre = draft.centre[a];
+    Shape const& s = mesh.shapes[static_cast<std::size_t>(p.shape)];
+    p.mass = mesh.materials[static_cast<std::size_t>(p.material)].density * s.volume;
+    p.velocity = body.velocity;
+    for (PrescribedConfig const& box : body.prescribed)
+      if (inside(p.centre, box.low, box.high, dimension)) p.freedom = Freedom::prescribed, p.velocity = box.velocity;
+    for (HoldConfig const& box : body.hold)
+      if (inside(p.centre, box.low, box.high, dimension)) p.freedom = Freedom::fixed, p.velocity = {};
+  }
+  connect(mesh, draft, config, number);
+
+  for (BodyConfig const& body : config.body) mesh.bodies.push_back({body.name, 0, 0, {}});
+  for (Particle& p : mesh.particles) {
+    Body& body = mesh.bodies[static_cast<std::size_t>(p.body)];
+    ++body.particles;
+    body.mass += p.mass;
+    body.centre += p.mass * p.centre;
+  }
+  for (Body& body : mesh.bodies) body.centre = body.centre / body.mass;
+  for (GlobalId id = 0; id < mesh.size(); ++id) {
+    Particle& p = mesh.particles[static_cast<std::size_t>(id)];
+    Real free_volume = 0;
+    for (FreeFace const& f : mesh.free_faces_of(id))
+      if (!f.clamped) free_volume += mesh.face(id, f.face).area * f.distance;
+    p.effective_volume = mesh.shape(id).volume + mesh.material(id).free_ratio() * free_volume;
+    auto const b = static_cast<std::size_t>(p.body);
+    if (p.freedom == Freedom::free) {
+      p.spin = config.body[b].spin;
+      p.velocity += cross(p.spin, p.centre - mesh.bodies[b].centre);
+    }
+    for (int d = dimension; d < 3; ++d) p.velocity[d] = 0;
+    if (dimension < 3) p.spin = {0, 0, dimension == 2 ? p.spin.z : 0};
+  }
+
+  if (auto const meeting = find_overlap(mesh)) {
+    auto const &a = config.body[static_cast<std::size_t>(meeting->body_a)],
+               &b = config.body[static_cast<std::size_t>(meeting->body_b)];
+    throw Error(Failure::scene, b.at.text() + ": solid.body \"" + a.name + "\" and \"" + b.name + "\" overlap by " +
+                                    std::to_string(meeting->depth) + " m at " + text(meeting->place) +
+                                    ". Bodies may touch: move one of them or change its dimensions.");
+  }
+  return mesh;
+}
+
+}  // namespace brisance::solid

@@ -1,0 +1,183 @@
+#include "core/solid/solid.hpp"
+
+#include <algorithm>
+
+#include "core/solid/surface.hpp"
+
+namespace brisance::solid {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+std::size_t at(GlobalId i) { return static_cast<std::size_t>(i); }
+Triple<double> triple(Vec3 const& v) { return {v.x, v.y, v.z}; }
+
+std::array<double, 8> symmetric(Mat3 const& m) { return {m[0].x, m[1].y, m[2].z, m[0].y, m[0].z, m[1].z, 0, 0}; }
+
+/// Inverse of a symmetric matrix by cofactors: entries that vanish by symmetry stay exactly zero.
+Mat3 inverse(Mat3 const& m) {
+  Vec3 const a = cross(m[1], m[2]), b = cross(m[2], m[0]), c = cross(m[0], m[1]);
+  return (1 / dot(m[0], a)) * transpose(Mat3{{a, b, c}});
+}
+
+}  // namespace
+
+Solid::Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner_of_particle, parallel::Comm& comm,
+             int dimension, Surface const* surface)
+    : mesh_(mesh),
+      comm_(comm),
+      dimension_(dimension),
+      cfl_(config.motion.cfl),
+      gravity_(config.gravity),
+      owner_(std::move(owner_of_particle)) {
+  if (gravity_)
+    for (int d = dimension; d < 3; ++d) (*gravity_)[d] = 0;
+  choose_particles(surface);
+  store_particles();
+  store_links();
+  compute_forces();
+}
+
+void Solid::choose_particles(Surface const* surface) {
+  int const me = comm_.rank();
+  // 1: owned, 2: first layer (its strains are computed here), 3: second layer and vertex groups (poses only).
+  std::vector<char> layer(at(mesh_.size()), 0);
+  std::vector<GlobalId> ghosts;
+  for (GlobalId p = 0; p < mesh_.size(); ++p)
+    if (owner(p) == me) {
+      layer[at(p)] = 1;
+      ids_.push_back(p);
+    }
+  auto add_neighbours = [&](std::span<GlobalId const> of, char mark) {
+    std::vector<GlobalId> added;
+    for (GlobalId p : of)
+      for (std::size_t l : mesh_.links_of(p)) {
+        Link const& link = mesh_.links[l];
+        if (link.j == Link::wall) continue;
+        GlobalId const other = link.i == p ? link.j : link.i;
+        if (layer[at(other)]) continue;
+        layer[at(other)] = mark;
+        added.push_back(other);
+      }
+    return added;
+  };
+  owned_ = static_cast<Index>(ids_.size());
+  std::vector<GlobalId> const first = add_neighbours(ids_, 2), second = add_neighbours(first, 3);
+  ghosts.insert(ghosts.end(), first.begin(), first.end());
+  ghosts.insert(ghosts.end(), second.begin(), second.end());
+  if (surface)
+    for (Index v = 0; v < surface->vertices(); ++v) {
+      auto const group = surface->corners(v);
+      if (std::none_of(group.begin(), group.end(), [&](Corner const& c) { return owner(c.particle) == me; })) continue;
+      for (Corner const& c : group)
+        if (!layer[at(c.particle)]) {
+          layer[at(c.particle)] = 3;
+          ghosts.push_back(c.particle);
+        }
+    }
+  std::sort(ghosts.begin(), ghosts.end());
+  ids_.insert(ids_.end(), ghosts.begin(), ghosts.end());
+  count_ = static_cast<Index>(ids_.size());
+  local_.assign(at(mesh_.size()), -1);
+  for (Index l = 0; l < count_; ++l) local_[at(id(l))] = l;
+  std::vector<Halo::Ghost> wanted;
+  for (GlobalId g : ghosts) wanted.push_back({local(g), g, owner(g)});
+  halo_.connect(comm_, wanted, local_);
+
+  // Links in global order: those of owned particles and of the first layer, whose strain needs all of theirs.
+  for (std::size_t l = 0; l < mesh_.links.size(); ++l) {
+    Link const& link = mesh_.links[l];
+    bool const needed = (layer[at(link.i)] == 1 || layer[at(link.i)] == 2) ||
+                        (link.j != Link::wall && (layer[at(link.j)] == 1 || layer[at(link.j)] == 2));
+    if (needed) mesh_link_.push_back(l);
+  }
+}
+
+void Solid::store_particles() {
+  std::size_t const n = at(count_);
+  pose_.resize(n + 1);
+  wrench_.resize(n + 1);
+  opened_.assign(n + 1, 0);
+  pressure_.assign(n + 1, 0);
+  motion_.resize(n);
+  half_.resize(n);
+  load_.resize(n);
+  bulk_.resize(n);
+  face_opening_.assign(n, 0);
+  inertia_of_.resize(n);
+  std::vector<Index> place(mesh_.shapes.size() * mesh_.materials.size(), -1);
+  for (Index l = 0; l < count_; ++l) {
+    Particle const& p = mesh_.particle(id(l));
+    Mat3 const inertia = mesh_.inertia(id(l));
+    Index& slot = place[at(p.shape) * mesh_.materials.size() + at(p.material)];
+    if (slot < 0) {
+      slot = static_cast<Index>(inertia_.size());
+      inertia_.push_back({symmetric(inertia), symmetric(inverse(inertia))});
+    }
+    inertia_of_[at(l)] = slot;
+    pose_[at(l)].x = p.centre;
+    bool const free = p.freedom == Freedom::free;
+    motion_[at(l)] = {p.velocity, free ? 1 / p.mass : 0, inertia * p.spin, free ? 1.0 : 0.0};
+    half_[at(l)].v = p.velocity;
+    half_[at(l)].omega = p.spin;
+    bulk_[at(l)] = mesh_.material(id(l)).lame() / p.effective_volume;
+    volumetric_ = volumetric_ || mesh_.material(id(l)).lame() != 0;
+    if (!free && l < owned_) held_.push_back(l);
+  }
+}
+
+void Solid::store_links() {
+  for (std::size_t l : mesh_link_) {
+    Link const& link = mesh_.links[l];
+    FaceGeometry const& face = mesh_.face(link.i, link.face_i);
+    Vec3 const x_i = mesh_.particle(link.i).centre;
+    bool const wall = link.j == Link::wall;
+    // The wall is a particle at rest at the origin: its arm is the place of the face itself.
+    Vec3 const arm_j = x_i + face.centroid - (wall ? Vec3{} : mesh_.particle(link.j).centre);
+    auto const bending = symmetric(bending_tensor(mesh_, link));
+    LinkRest<double> rest{link.stiffness,        link.weight,   triple(face.area * face.normal),
+                          triple(face.centroid), triple(arm_j), {}};
+    std::copy_n(bending.begin(), 6, rest.bending);
+    if (wall && local(link.i) < owned_) clamps_.push_back(links_.count());
+    links_.add(local(link.i), wall ? count_ : local(link.j), rest);
+  }
+}
+
+void Solid::load_faces(std::span<FaceLoad const> loads) {
+  loaded_.clear();
+  std::fill(face_opening_.begin(), face_opening_.end(), 0.0);
+  for (FaceLoad const& load : loads) {
+    Index const l = local(load.particle);
+    if (l < 0) continue;
+    FaceGeometry const& face = mesh_.face(load.particle, load.face);
+    Real distance = 0;
+    for (FreeFace const& f : mesh_.free_faces_of(load.particle))
+      if (f.face == load.face && !f.clamped) distance = f.distance;
+    Real const normal = dot(load.traction, face.normal), shear = mesh_.material(load.particle).shear();
+    face_opening_[at(l)] += face.area * distance / (2 * shear) * normal;
+    loaded_.push_back(
+        {l, face.area * load.traction, face.centroid, face.area * distance / (4 * shear) * normal * normal});
+  }
+}
+
+void Solid::start_exchange() { halo_.start(comm_, pose_, half_); }
+void Solid::finish_exchange() { halo_.finish(pose_, half_); }
+
+void Solid::compute_forces() {
+  std::size_t const n = at(count_);
+  if (volumetric_) {
+    std::copy(face_opening_.begin(), face_opening_.end(), opened_.begin());
+    links_.add_opened_volume(pose_, opened_);
+    for (std::size_t p = 0; p < n; ++p) pressure_[p] = bulk_[p] * opened_[p];
+  }
+  std::fill(wrench_.begin(), wrench_.end(), Wrench{});
+  links_.add_wrench(pose_, pressure_, wrench_);
+  for (LoadedFace const& face : loaded_) {
+    Wrench& w = wrench_[at(face.particle)];
+    Quaternion const& q = pose_[at(face.particle)].q;
+    Vec3 const force = rotate(q, face.force);
+    w.force += force;
+    w.torque += cross(rotate(q, face.arm), force);
+  }
+}
+
+}  // namespace brisance::solid

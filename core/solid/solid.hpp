@@ -1,0 +1,171 @@
+// The solid of one rank: its particles, the ghosts they need, their links, and the verbs of a step.
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/solid/halo.hpp"
+#include "core/solid/links/link_store.hpp"
+#include "core/solid/measures.hpp"
+#include "core/solid/mesh.hpp"
+#include "core/solid/particles.hpp"
+#include "core/solid/solid_config.hpp"
+#include "parallel/comm.hpp"
+
+namespace brisance::solid {
+
+class Surface;
+
+/// Traction on a boundary face that turns with its particle: t = R_I `traction`, Pa.
+struct FaceLoad {
+  GlobalId particle = 0;
+  int face = 0;
+  Vec3 traction{};
+};
+
+/// The guaranteed time step of the particles and what limits it.
+struct StableStep {
+  Real dt = 1e300;         ///< s
+  GlobalId particle = -1;  ///< the limiting particle
+  bool by_rotation = false;
+};
+
+/// Rigid particles joined by elastic links, kick-drift-kick with the rotation step of discrete Moser-Veselov form.
+/// Source: theory/solid.md sections 3-5, 7, 10, 11, 17.  Shape: owned particles first, then ghosts, both in global
+/// order. Bits: the state of owned particles does not depend on how particles are dealt to ranks.
+class Solid {
+ public:
+  /// Collective. `mesh` must outlive the solid. Ghosts: two layers of linked neighbours and, with a surface, every
+  /// particle that shares a boundary vertex with an owned one.
+  Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner_of_particle, parallel::Comm& comm,
+        int dimension, Surface const* surface = nullptr);
+
+  Mesh const& mesh() const { return mesh_; }
+  Index owned() const { return owned_; }
+  Index count() const { return count_; }
+  GlobalId id(Index local) const { return ids_[static_cast<std::size_t>(local)]; }
+  Index local(GlobalId id) const { return local_[static_cast<std::size_t>(id)]; }  ///< -1 if absent
+  int owner(GlobalId id) const { return owner_[static_cast<std::size_t>(id)]; }
+  std::size_t links() const { return links_.count(); }
+  std::size_t bytes() const;       ///< memory of the particles of this rank
+  std::size_t link_bytes() const;  ///< memory of its links
+
+  // Columns over owned particles and ghosts. Of ghosts, pose and half velocity are current after exchange_pose.
+  std::span<Pose const> pose() const { return std::span(pose_).first(static_cast<std::size_t>(count_)); }
+  std::span<Pose> pose() { return std::span(pose_).first(static_cast<std::size_t>(count_)); }
+  std::span<Motion const> motion() const { return motion_; }
+  std::span<Motion> motion() { return motion_; }
+  std::span<HalfVelocity const> half_velocity() const { return half_; }
+  std::span<Wrench const> internal() const { return std::span(wrench_).first(static_cast<std::size_t>(count_)); }
+  std::span<Wrench const> load() const { return load_; }
+  std::span<Wrench> load() { return load_; }  ///< external, frozen over a step: owned entries are used
+
+  /// v += dt/2 (F/m + g), spin += dt/2 M, owned particles; books the impulse and work of reactions.
+  void half_kick(Real dt);
+  /// x += dt v, rotation by the implicit equation; records the half-step velocities. Owned particles.
+  void drift(Real dt);
+  /// half_kick then drift in one pass over memory: the same bits.
+  void kick_and_drift(Real dt);
+  /// Poses and half velocities of ghosts from their owners. Collective among neighbours.
+  void exchange_pose() { start_exchange(), finish_exchange(); }
+  void start_exchange();
+  void finish_exchange();
+  /// Internal forces and torques of owned particles at the current poses.
+  void compute_forces();
+  /// A step without a fluid: kick_and_drift, exchange, forces, half_kick.
+  void step(Real dt);
+
+  /// Tractions on boundary faces until the next call; the same list on every rank.
+  /// Expects: free faces of the mesh, by particle.  They enter forces and volumetric strains at the next
+  /// compute_forces.
+  void load_faces(std::span<FaceLoad const> loads);
+
+  /// Everything that changes in a step.
+  struct Saved {
+    std::vector<Pose> pose;
+    std::vector<Motion> motion;
+    std::vector<HalfVelocity> half;
+    std::vector<Wrench> wrench, load;
+    std::vector<double> opened, pressure;
+    Reactions reactions;
+  };
+  enum class Restore { state, state_and_load };
+  void save(Saved& to) const;
+  /// `state` leaves the external load as it is now: the predictor of a step is undone, its new load stays.
+  void restore(Saved const& from, Restore what = Restore::state);
+
+  /// cfl times the guaranteed bound of theory/solid.md section 11, and a rotation of at most 1/4 rad a step. This rank
+  /// only.
+  StableStep stable_limit() const;
+  Real stable_step() const { return stable_limit().dt; }
+  /// The bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
+  StableStep link_limit() const;
+
+  /// Adds the sums over owned particles and links to `to`; add over ranks with Comm::sum.
+  void measure(Measures& to) const;
+  /// Impulse and work of the reactions of fixed, prescribed and clamped parts since the last call; resets them. This
+  /// rank.
+  Reactions take_reactions();
+  /// dt sum (F v_half + M omega_half) of the external load over owned particles, J.
+  void add_load_work(Real dt, parallel::ExactSum& to) const;
+  void digest(parallel::Digest& to) const;
+
+  /// State of one particle in a checkpoint: pose 7, motion 6, internal wrench 6, load 6, half velocities 6.
+  static constexpr int row_size = 31;
+  std::span<GlobalId const> owned_ids() const { return std::span(ids_).first(static_cast<std::size_t>(owned_)); }
+  std::vector<double> pack() const;  ///< rows of owned particles, in the order of owned_ids
+  /// Takes the rows of particles present here (owned or ghost) out of `rows`; others are ignored. Strains and forces
+  /// follow from exchange_pose and compute_forces, to the same bits.
+  void unpack(std::span<GlobalId const> ids, std::span<double const> rows);
+
+ private:
+  void choose_particles(Surface const* surface);
+  void store_particles();
+  void store_links();
+  template <bool with_kick, bool with_drift>
+  void advance(Real dt);
+  void book_reactions(Real dt);
+  std::vector<double> link_limits() const;
+
+  Mesh const& mesh_;
+  parallel::Comm& comm_;
+  int dimension_;
+  Real cfl_;
+  std::optional<Vec3> gravity_;
+  std::vector<int> owner_;
+
+  Index owned_ = 0, count_ = 0;
+  std::vector<GlobalId> ids_;
+  std::vector<Index> local_;
+  Halo halo_;
+
+  // One entry more than particles: the wall, at rest at the origin, the far end of clamped faces.
+  std::vector<Pose> pose_;
+  std::vector<Wrench> wrench_;
+  std::vector<double> opened_, pressure_;
+
+  std::vector<Motion> motion_;
+  std::vector<HalfVelocity> half_;
+  std::vector<Wrench> load_;
+  std::vector<double> bulk_;          // lambda / effective volume
+  std::vector<double> face_opening_;  // volume opened by the tractions on free faces
+  std::vector<Index> inertia_of_;
+  std::vector<Inertia> inertia_;
+  std::vector<std::size_t> mesh_link_;  // links of this rank as indices into the mesh, in global order
+  std::vector<Index> held_;             // owned fixed or prescribed particles
+  std::vector<std::size_t> clamps_;     // links to the wall whose particle is owned
+
+  LinkStore links_;
+  bool volumetric_ = false;  // some lambda is not zero
+  struct LoadedFace {
+    Index particle;
+    Vec3 force, arm;  // body frame
+    Real stored;      // S d t_n^2 / 4G
+  };
+  std::vector<LoadedFace> loaded_;
+  Reactions reactions_;
+  mutable std::vector<double> link_limits_;
+};
+
+}  // namespace brisance::solid

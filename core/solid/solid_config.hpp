@@ -1,0 +1,84 @@
+// What a scene says about its solid: materials, bodies, how they are cut into particles and held.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/location.hpp"
+#include "core/base/vec3.hpp"
+
+namespace brisance {
+template <class T>
+class Keys;
+}
+
+namespace brisance::solid {
+
+/// Isotropic elastic material.  Units: kg/m3, Pa, 1.
+struct MaterialConfig {
+  Real density = 0, young_modulus = 0, poisson_ratio = 0;
+  Location at;
+  static void keys(Keys<MaterialConfig>& k);
+};
+
+/// Elastic links between the particles of a body; absent = free rigid particles.
+struct LinksConfig {
+  Real torsion_ratio = 1;  ///< kappa of theory/solid.md section 8
+  static void keys(Keys<LinksConfig>& k);
+};
+
+/// Time integration of the particles.
+struct MotionConfig {
+  Real cfl = 0.9;  ///< fraction of the guaranteed stable step
+  static void keys(Keys<MotionConfig>& k);
+};
+
+/// An axis-parallel box in the reference state.  Units: m.
+struct HoldConfig {
+  Vec3 low{}, high{};
+  static void keys(Keys<HoldConfig>& k);
+};
+
+/// Particles whose centre lies in the box move at a constant velocity.  Units: m, m/s.
+struct PrescribedConfig {
+  Vec3 low{}, high{}, velocity{};
+  static void keys(Keys<PrescribedConfig>& k);
+};
+
+/// One body: a shape, its dimensions, and the tessellation that cuts it into convex particles.
+/// In 2D bodies are prisms over 0 <= z <= 1 m; in 1D slabs over 0 <= y, z <= 1 m.
+struct BodyConfig {
+  std::string name = "body", material, shape = "box", tessellation = "cartesian";
+  std::optional<Vec3> low, high;                   // box, prism (z only)
+  std::optional<Vec3> centre;                      // all others: centre of the shape
+  Vec3 axis{0, 0, 1};                              // cylinder, tube, plate (its normal)
+  std::optional<Real> radius;                      // cylinder, sphere
+  std::optional<Real> inner_radius, outer_radius;  // tube, shell
+  std::optional<Real> length;                      // cylinder, tube: along the axis; plate: first side
+  std::optional<Real> width, thickness;            // plate: second side, along the normal
+  Real phase = 0;                                  // polar: angle of the first corner, rad
+  std::vector<Real> corners;                       // prism: x0, y0, x1, y1, ... counter-clockwise, m
+  std::array<Index, 3> cells{1, 1, 1};             // cartesian: along the sides; polar: radial, around, axial
+  int particles = 100;                             // voronoi: how many
+  std::int64_t seed = 1;                           // voronoi: of the generators
+  int lloyd = 20;                                  // voronoi: sweeps towards centroidal cells
+  Vec3 velocity{}, spin{};                         // m/s; rad/s about the mass centre of the body
+  std::vector<HoldConfig> hold, clamp;             // particles with their centre, boundary faces lying, in a box
+  std::vector<PrescribedConfig> prescribed;
+  Location at;
+  static void keys(Keys<BodyConfig>& k);
+};
+
+struct SolidConfig {
+  std::map<std::string, MaterialConfig> material;
+  std::vector<BodyConfig> body;
+  std::optional<LinksConfig> links;
+  MotionConfig motion;
+  std::optional<Vec3> gravity;  ///< m/s2
+  Location at;
+  static void keys(Keys<SolidConfig>& k);
+};
+
+}  // namespace brisance::solid

@@ -1,0 +1,134 @@
+// Saving, measuring, hashing and packing the state of a rank.
+#include <algorithm>
+
+#include "core/solid/solid.hpp"
+#include "parallel/error.hpp"
+
+namespace brisance::solid {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr std::uint32_t particle_kind = 0x50415254;  // "PART"
+
+Mat3 symmetric_matrix(std::array<double, 8> const& t) {
+  return {{Vec3{t[0], t[3], t[4]}, Vec3{t[3], t[1], t[5]}, Vec3{t[4], t[5], t[2]}}};
+}
+
+std::array<Real, 3> components(Vec3 const& v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+void Solid::save(Saved& to) const {
+  to.pose = pose_;
+  to.motion = motion_;
+  to.half = half_;
+  to.wrench = wrench_;
+  to.load = load_;
+  to.opened = opened_;
+  to.pressure = pressure_;
+  to.reactions = reactions_;
+}
+
+void Solid::restore(Saved const& from, Restore what) {
+  pose_ = from.pose;
+  motion_ = from.motion;
+  half_ = from.half;
+  wrench_ = from.wrench;
+  opened_ = from.opened;
+  pressure_ = from.pressure;
+  reactions_ = from.reactions;
+  if (what == Restore::state_and_load) load_ = from.load;
+}
+
+std::size_t Solid::bytes() const {
+  return at(count_) * (sizeof(Pose) + sizeof(Motion) + sizeof(HalfVelocity) + 2 * sizeof(Wrench) + 4 * sizeof(double)) +
+         inertia_.size() * sizeof(Inertia) + owner_.size() * (sizeof(int) + sizeof(Index));
+}
+
+std::size_t Solid::link_bytes() const { return links_.bytes(); }
+
+void Solid::measure(Measures& to) const {
+  for (Index l = 0; l < owned_; ++l) {
+    Real const mass = mesh_.particle(id(l)).mass;
+    Motion const& m = motion_[at(l)];
+    Vec3 const momentum = mass * m.v;
+    Vec3 const body_spin = rotate(conjugate(pose_[at(l)].q), m.spin);
+    Vec3 const rate = symmetric_matrix(inertia_[at(inertia_of_[at(l)])].inverse) * body_spin;
+    to.add(Measures::kinetic, 0.5 * (dot(momentum, m.v) + dot(body_spin, rate)));
+    to.add(Measures::elastic, 0.5 * pressure_[at(l)] * opened_[at(l)]);
+    to.add(Measures::mass, mass);
+    to.add(Measures::momentum, momentum);
+    to.add(Measures::angular, cross(pose_[at(l)].x, momentum) + m.spin);
+    to.add(Measures::momentum_scale, norm(momentum));
+    if (m.turns != 0) {
+      to.add(Measures::first_moment, mass * pose_[at(l)].x);
+      to.add(Measures::free_mass, mass);
+    }
+  }
+  for (std::size_t k = 0; k < links_.count(); ++k) {
+    Index const i = links_.end_i(k), j = links_.end_j(k);
+    if (i >= owned_) continue;
+    to.add(Measures::elastic, link_energy(links_.rest(k), ends_of(pose_[at(i)], pose_[at(j)])));
+  }
+  for (LoadedFace const& face : loaded_)
+    if (face.particle < owned_) to.add(Measures::elastic, -face.stored);
+}
+
+Reactions Solid::take_reactions() {
+  Reactions const taken = reactions_;
+  reactions_ = {};
+  return taken;
+}
+
+void Solid::add_load_work(Real dt, parallel::ExactSum& to) const {
+  for (Index l = 0; l < owned_; ++l)
+    to.add(dt * (dot(load_[at(l)].force, half_[at(l)].v) + dot(load_[at(l)].torque, half_[at(l)].omega)));
+}
+
+void Solid::digest(parallel::Digest& to) const {
+  std::array<double, 13> bits{};
+  for (Index l = 0; l < owned_; ++l) {
+    Pose const& p = pose_[at(l)];
+    Motion const& m = motion_[at(l)];
+    bits = {p.x.x, p.x.y, p.x.z, p.q.w, p.q.v.x, p.q.v.y, p.q.v.z, m.v.x, m.v.y, m.v.z, m.spin.x, m.spin.y, m.spin.z};
+    to.add(particle_kind, id(l), bits);
+  }
+}
+
+std::vector<double> Solid::pack() const {
+  std::vector<double> rows;
+  rows.reserve(at(owned_) * row_size);
+  for (Index l = 0; l < owned_; ++l) {
+    Pose const& p = pose_[at(l)];
+    rows.insert(rows.end(), {p.x.x, p.x.y, p.x.z, p.q.w, p.q.v.x, p.q.v.y, p.q.v.z});
+    for (Vec3 const& v : {motion_[at(l)].v, motion_[at(l)].spin, wrench_[at(l)].force, wrench_[at(l)].torque,
+                          load_[at(l)].force, load_[at(l)].torque, half_[at(l)].v, half_[at(l)].omega}) {
+      auto const c = components(v);
+      rows.insert(rows.end(), c.begin(), c.end());
+    }
+  }
+  return rows;
+}
+
+void Solid::unpack(std::span<GlobalId const> ids, std::span<double const> rows) {
+  require(rows.size() == ids.size() * row_size, Failure::system,
+          "solid rows of a checkpoint have another length than their numbers: the file belongs to another version.");
+  for (std::size_t r = 0; r < ids.size(); ++r) {
+    if (ids[r] < 0 || ids[r] >= mesh_.size()) continue;
+    Index const l = local(ids[r]);
+    if (l < 0) continue;
+    double const* in = rows.data() + r * row_size;
+    Pose& p = pose_[at(l)];
+    p.x = {in[0], in[1], in[2]};
+    p.q = {in[3], {in[4], in[5], in[6]}};
+    in += 7;
+    for (Vec3* v : {&motion_[at(l)].v, &motion_[at(l)].spin, &wrench_[at(l)].force, &wrench_[at(l)].torque,
+                    &load_[at(l)].force, &load_[at(l)].torque, &half_[at(l)].v, &half_[at(l)].omega}) {
+      *v = {in[0], in[1], in[2]};
+      in += 3;
+    }
+  }
+}
+
+}  // namespace brisance::solid

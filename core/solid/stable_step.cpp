@@ -1,0 +1,141 @@
+// The guaranteed stable step.  Source: theory/solid.md section 11.
+// Scalar Eigen: done once, and GCC 12 warns about its own AVX-512 header otherwise.
+#define EIGEN_DONT_VECTORIZE
+#include <Eigen/Dense>
+
+#include "core/solid/solid.hpp"
+
+namespace brisance::solid {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Eigen::Vector3d eigen(Vec3 const& v) { return {v.x, v.y, v.z}; }
+Eigen::Matrix3d eigen(Mat3 const& m) {
+  Eigen::Matrix3d e;
+  for (int r = 0; r < 3; ++r) e.row(r) = eigen(m[r]).transpose();
+  return e;
+}
+
+/// One link seen from one of its ends: outward normal, arm and the weight of that end.
+struct End {
+  FaceGeometry const* face;
+  Vec3 arm, normal;
+  Real weight;
+  GlobalId other;  ///< Link::wall at a wall
+};
+
+End end_of(Mesh const& mesh, Link const& link, GlobalId p) {
+  FaceGeometry const& face = mesh.face(link.i, link.face_i);
+  if (link.i == p) return {&face, face.centroid, face.normal, link.weight, link.j};
+  return {&face, mesh.particle(link.i).centre + face.centroid - mesh.particle(p).centre, -face.normal, 1 - link.weight,
+          link.i};
+}
+
+Vector6 generalized_normal(End const& e) {
+  Vector6 g;
+  g << eigen(e.normal), eigen(cross(e.arm, e.normal));
+  return g;
+}
+
+/// How the strain of a particle depends on the others and on itself: A_J / V~_J and b_J.
+struct StrainBound {
+  Real ratio = 0;  ///< sum of w^2 S D over the effective volume, 1 (dimensionless)
+  Vector6 own = Vector6::Zero();
+  bool cancels = true;  ///< does its own displacement drop out of its strain?
+};
+
+StrainBound strain_bound(Mesh const& mesh, GlobalId p) {
+  StrainBound bound;
+  Real scale = 0, size = 0;
+  for (std::size_t l : mesh.links_of(p)) {
+    Link const& link = mesh.links[l];
+    End const e = end_of(mesh, link, p);
+    if (e.other != Link::wall) bound.ratio += e.weight * e.weight * e.face->area * link.rest_length;
+    bound.own += e.weight * e.face->area * generalized_normal(e);
+    scale += e.weight * e.face->area;
+    size = max(size, norm(e.arm));
+  }
+  bound.ratio /= mesh.particle(p).effective_volume;
+  bound.cancels = bound.own.head<3>().norm() <= 1e-9 * scale && bound.own.tail<3>().norm() <= 1e-9 * scale * size;
+  return bound;
+}
+
+/// The freedoms that move: rows of (u, theta).
+std::vector<int> freedoms(int dimension) {
+  if (dimension == 1) return {0};
+  if (dimension == 2) return {0, 1, 5};
+  return {0, 1, 2, 3, 4, 5};
+}
+
+}  // namespace
+
+std::vector<double> Solid::link_limits() const {
+  std::vector<int> const moving = freedoms(dimension_);
+  std::vector<StrainBound> bound(at(count_));
+  // Second-layer ghosts are not complete here, but the replicated mesh is.
+  for (Index l = 0; l < count_; ++l) bound[at(l)] = strain_bound(mesh_, id(l));
+  std::vector<double> limits(at(owned_), 1e300);
+  for (Index l = 0; l < owned_; ++l) {
+    GlobalId const p = id(l);
+    if (motion_[at(l)].turns == 0 || mesh_.links_of(p).empty()) continue;
+    Real const lame = max(mesh_.material(p).lame(), 0);
+    Matrix6 k = Matrix6::Zero();
+    for (std::size_t index : mesh_.links_of(p)) {
+      Link const& link = mesh_.links[index];
+      End const e = end_of(mesh_, link, p);
+      bool const wall = e.other == Link::wall;
+      Eigen::Matrix<double, 3, 6> b = Eigen::Matrix<double, 3, 6>::Zero();
+      b.leftCols<3>().setIdentity();
+      for (int c = 0; c < 3; ++c) {
+        Vec3 axis{};
+        axis[c] = 1;
+        b.col(3 + c) = eigen(cross(axis, e.arm));
+      }
+      // |a - b|^2 <= 2 |a|^2 + 2 |b|^2 for two moving ends; a wall does not move.
+      Real const shared = wall ? 1 : 2;
+      k += shared * link.stiffness * b.transpose() * b;
+      k.bottomRightCorner<3, 3>() += 0.5 * shared * eigen(bending_tensor(mesh_, link));
+      if (wall) continue;
+      StrainBound const& of = bound[at(local(e.other))];
+      Vector6 const g = generalized_normal(e);
+      k += lame * (of.cancels ? 1 : 2) * of.ratio * (e.face->area / link.rest_length) * g * g.transpose();
+    }
+    StrainBound const& mine = bound[at(l)];
+    if (!mine.cancels) k += 2 * lame / mesh_.particle(p).effective_volume * mine.own * mine.own.transpose();
+    Matrix6 m = Matrix6::Zero();
+    m.diagonal().head<3>().setConstant(mesh_.particle(p).mass);
+    m.bottomRightCorner<3, 3>() = eigen(mesh_.inertia(p));
+    Eigen::MatrixXd const kept = k(moving, moving), mass = m(moving, moving);
+    Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> const solver(kept, mass,
+                                                                           Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
+    limits[at(l)] = 2 / std::sqrt(solver.eigenvalues().maxCoeff());
+  }
+  return limits;
+}
+
+StableStep Solid::link_limit() const {
+  if (link_limits_.empty()) link_limits_ = link_limits();
+  StableStep best;
+  for (Index l = 0; l < owned_; ++l)
+    if (link_limits_[at(l)] < best.dt) best = {link_limits_[at(l)], id(l), false};
+  return best;
+}
+
+StableStep Solid::stable_limit() const {
+  StableStep best = link_limit();
+  best.dt *= cfl_;
+  for (Index l = 0; l < owned_; ++l) {
+    Vec3 const spin = rotate(conjugate(pose_[at(l)].q), motion_[at(l)].spin);
+    auto const& t = inertia_[at(inertia_of_[at(l)])].inverse;
+    Triple<double> const rate = symmetric_times(t.data(), Triple<double>{spin.x, spin.y, spin.z});
+    Real const speed = std::sqrt(dot(rate, rate));
+    if (speed * best.dt > 0.25) best = {0.25 / speed, id(l), true};
+  }
+  return best;
+}
+
+}  // namespace brisance::solid
