@@ -8,9 +8,14 @@ namespace brisance::fluid {
 void BoundaryLedger::add(int direction, int side, Real dt, Real area, State const& flux) {
   Real const inwards = side == 0 ? dt * area : -(dt * area);
   auto& sums = through_[static_cast<std::size_t>(2 * direction + side)];
-  for (std::size_t q = 0; q < 5; ++q) sums[q].add(inwards * flux[q]);
-  std::size_t const d = static_cast<std::size_t>(direction);
-  impulse_[d].add(std::abs(inwards * flux[1 + d]));
+  for (std::size_t q = 0; q < 5; ++q) {
+    sums[q].add(inwards * flux[q]);
+    recent_.gained[q].add(inwards * flux[q]);
+  }
+  Real const impulse = std::abs(inwards * flux[1 + static_cast<std::size_t>(direction)]);
+  impulse_.add(impulse);
+  recent_.impulse.add(impulse);
+  recent_.energy_size.add(std::abs(inwards * flux[4]));
 }
 
 BoundaryLedger::Totals BoundaryLedger::totals(parallel::Comm& comm) const {
@@ -19,13 +24,13 @@ BoundaryLedger::Totals BoundaryLedger::totals(parallel::Comm& comm) const {
   sums.resize(35);
   for (std::size_t q = 0; q < 5; ++q)
     for (auto const& side : through_) sums[30 + q].add(side[q]);
-  sums.insert(sums.end(), impulse_.begin(), impulse_.end());
+  sums.push_back(impulse_);
   comm.sum(std::span(sums));
   Totals result;
   for (std::size_t s = 0; s < 6; ++s)
     for (std::size_t q = 0; q < 5; ++q) result.through[s][q] = sums[5 * s + q].value();
   for (std::size_t q = 0; q < 5; ++q) result.gained[q] = sums[30 + q].value();
-  result.impulse = {sums[35].value(), sums[36].value(), sums[37].value()};
+  result.impulse = sums[35].value();
   return result;
 }
 

@@ -1,6 +1,7 @@
 // What crossed the sides of the domain: the fluid's part of the audit of mass, momentum and energy.
 #pragma once
 #include <array>
+#include <utility>
 
 #include "fluid/grid/grid.hpp"
 #include "parallel/comm.hpp"
@@ -13,18 +14,28 @@ class BoundaryLedger {
   /// Adds what `flux` (along +direction, per area and time) carried during `dt` through `area` of a side of the domain.
   void add(int direction, int side, Real dt, Real area, State const& flux);
 
+  /// Over the whole run, on all ranks.
   struct Totals {
     std::array<State, 6>
-        through{};   ///< gained by the domain through x_low, x_high, y_low, ...: kg, kg m/s, J (2D: per metre)
-    State gained{};  ///< over all sides
-    Vec3 impulse{};  ///< sum of the sizes of the normal impulses on the sides along x, y, z: kg m/s
+        through{};     ///< gained by the domain through x_low, x_high, y_low, ...: kg, kg m/s, J (2D: per metre)
+    State gained{};    ///< over all sides
+    Real impulse = 0;  ///< sum of the sizes of the impulses normal to the sides: kg m/s
   };
   /// Collective.
   Totals totals(parallel::Comm& comm) const;
 
+  /// What this rank recorded since the last take().
+  struct Crossed {
+    std::array<parallel::ExactSum, 5> gained;
+    parallel::ExactSum impulse;      ///< sizes of the impulses normal to the sides: kg m/s
+    parallel::ExactSum energy_size;  ///< sizes of the amounts of energy: J
+  };
+  Crossed take() { return std::exchange(recent_, {}); }
+
  private:
   std::array<std::array<parallel::ExactSum, 5>, 6> through_;
-  std::array<parallel::ExactSum, 3> impulse_;
+  parallel::ExactSum impulse_;
+  Crossed recent_;
 };
 
 }  // namespace brisance::fluid

@@ -61,26 +61,44 @@ std::vector<int> directions(int dimension, std::int64_t step) {
   return sequence;
 }
 
-std::array<Real, 3> signal_speeds(Flow const& flow, CellMask const& skip) {
+namespace {
+
+/// `row_speeds(best, block, row, j, k)` adds one row of cells.
+template <class Row>
+std::array<Real, 3> largest_speeds(Flow const& flow, Row const& row_speeds) {
   RowMax best;
-  for (Block const& block : flow.blocks()) {
-    std::uint8_t const* mask = skip ? skip(block.id()) : nullptr;
-    auto const [nx, ny, nz] = block.size();
-    for (Index k = 0; k < nz; ++k)
-      for (Index j = 0; j < ny; ++j) {
+  for (Block const& block : flow.blocks())
+    for (Index k = 0; k < block.size()[2]; ++k)
+      for (Index j = 0; j < block.size()[1]; ++j) {
         std::array<Real const*, 5> row;
         for (int q = 0; q < 5; ++q) row[static_cast<std::size_t>(q)] = block.component(q) + block.at(0, j, k);
-        if (!mask) {
-          best.row(row, nx, flow.gas());
-          continue;
-        }
-        for (Index i = 0; i < nx; ++i)
-          if (*mask++ == 0) best.cell(row, i, flow.gas());
+        row_speeds(best, block, row, j, k);
       }
-  }
   std::array<Real, 3> speeds{};
   for (std::size_t d = 0; d < static_cast<std::size_t>(flow.grid().dimension); ++d) speeds[d] = best.value(d);
   return speeds;
+}
+
+}  // namespace
+
+std::array<Real, 3> signal_speeds(Flow const& flow, CellMask const& skip) {
+  return largest_speeds(flow, [&](RowMax& best, Block const& block, auto const& row, Index j, Index k) {
+    auto const [nx, ny, nz] = block.size();
+    std::uint8_t const* const mask = skip ? skip(block.id()) : nullptr;
+    if (!mask) return best.row(row, nx, flow.gas());
+    std::uint8_t const* const here = mask + std::ptrdiff_t{nx} * (j + std::ptrdiff_t{ny} * k);
+    for (Index i = 0; i < nx; ++i)
+      if (here[i] == 0) best.cell(row, i, flow.gas());
+  });
+}
+
+std::array<Real, 3> signal_speeds(Flow const& flow, FluidVolume const& volume) {
+  if (!volume) return signal_speeds(flow);
+  return largest_speeds(flow, [&](RowMax& best, Block const& block, auto const& row, Index j, Index k) {
+    CellIndex const first = block.first();
+    for (Index i = 0; i < block.size()[0]; ++i)
+      if (volume({first[0] + i, first[1] + j, first[2] + k}) > 0) best.cell(row, i, flow.gas());
+  });
 }
 
 Real acoustic_time_step(Grid const& grid, std::array<Real, 3> const& speeds, Real cfl) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fluid/flow.hpp"
+#include "fluid/fluid_volume.hpp"
 
 namespace brisance::fluid {
 
@@ -22,6 +23,9 @@ using CellMask = std::function<std::uint8_t const*(Index block_id)>;
 /// Largest |u_d| + c per direction over the cells of this rank that are neither vacuum nor masked, m/s; 0 in absent
 /// directions. Not collective: the caller takes the maximum over the ranks.
 std::array<Real, 3> signal_speeds(Flow const& flow, CellMask const& skip = {});
+
+/// The same where walls cut the cells: those without fluid volume are skipped.
+std::array<Real, 3> signal_speeds(Flow const& flow, FluidVolume const& volume);
 
 /// cfl * min_d h_d / speed_d, s; infinite where nothing moves.
 Real acoustic_time_step(Grid const& grid, std::array<Real, 3> const& speeds, Real cfl);

@@ -49,8 +49,8 @@ void for_cells(Flow const& flow, Visit&& visit) {
 
 }  // namespace
 
-Totals totals(Flow const& flow, FluidVolume const& volume) {
-  std::vector<parallel::ExactSum> sums(6);
+LocalTotals local_totals(Flow const& flow, FluidVolume const& volume) {
+  LocalTotals sums;
   for (Block const& block : flow.blocks()) {
     Sums part;
     if (volume) {
@@ -59,8 +59,18 @@ Totals totals(Flow const& flow, FluidVolume const& volume) {
       part = block_sums(block, [](CellIndex) { return 1.0; });
       for (Real& x : part) x *= flow.grid().cell_volume();
     }
-    for (std::size_t q = 0; q < 6; ++q) sums[q].add(part[q]);
+    sums.mass.add(part[0]);
+    for (std::size_t d = 0; d < 3; ++d) sums.momentum[d].add(part[1 + d]);
+    sums.energy.add(part[4]);
+    sums.momentum_size.add(part[5]);
   }
+  return sums;
+}
+
+Totals totals(Flow const& flow, FluidVolume const& volume) {
+  LocalTotals const local = local_totals(flow, volume);
+  std::array<parallel::ExactSum, 6> sums{local.mass,        local.momentum[0], local.momentum[1],
+                                         local.momentum[2], local.energy,      local.momentum_size};
   flow.comm().sum(std::span(sums));
   return {sums[0].value(), {sums[1].value(), sums[2].value(), sums[3].value()}, sums[4].value(), sums[5].value()};
 }

@@ -3,12 +3,10 @@
 #include <functional>
 
 #include "fluid/flow.hpp"
+#include "fluid/fluid_volume.hpp"
 #include "parallel/digest.hpp"
 
 namespace brisance::fluid {
-
-/// Fluid volume of an owned cell, m3. An empty function stands for uncut cells.
-using FluidVolume = std::function<Real(CellIndex)>;
 
 /// Contents of the domain: kg, kg m/s, J (2D: per metre of depth).
 struct Totals {
@@ -17,7 +15,14 @@ struct Totals {
   Real energy = 0;
   Real momentum_size = 0;  ///< sum of the sizes of the cells' momenta
 };
-/// Collective. Each block is summed in a fixed order, the blocks exactly.
+/// The part of this rank: each block summed in a fixed order, the blocks exactly.
+struct LocalTotals {
+  parallel::ExactSum mass;
+  std::array<parallel::ExactSum, 3> momentum;
+  parallel::ExactSum energy, momentum_size;
+};
+LocalTotals local_totals(Flow const& flow, FluidVolume const& volume = {});
+/// Collective.
 Totals totals(Flow const& flow, FluidVolume const& volume = {});
 
 /// Extremes over the cells of this rank that hold gas; mach 0 and the others infinite where none does.

@@ -11,7 +11,7 @@ namespace brisance::fluid {
 
 /// Rows of this rank in the block-major numbering: the cells of block b start after all those of blocks 0..b-1, x
 /// fastest.
-std::vector<parallel::Range> cell_ranges(Flow const& flow);
+std::vector<parallel::Range> block_rows(Flow const& flow);
 /// The five conserved means of those rows.
 std::vector<double> pack_cells(Flow const& flow);
 /// Expects: what pack_cells() returned for the same grid and block owners.

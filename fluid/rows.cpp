@@ -1,4 +1,4 @@
-#include "fluid/cell_rows.hpp"
+#include "fluid/rows.hpp"
 
 #include <cmath>
 
@@ -29,7 +29,7 @@ Vec3 velocity(IdealGas const& gas, State const& u) { return gas.vacuum(u) ? Vec3
 
 }  // namespace
 
-std::vector<parallel::Range> cell_ranges(Flow const& flow) {
+std::vector<parallel::Range> block_rows(Flow const& flow) {
   std::vector<parallel::Range> ranges;
   std::int64_t row = 0;
   for (Index b = 0; b < flow.grid().block_count(); ++b) {

@@ -1,0 +1,17 @@
+brisance_test(fluid_domain_unit
+  SOURCES unit/fluid/grid/grid_test.cpp unit/fluid/grid/block_test.cpp unit/fluid/boundary/boundaries_test.cpp
+          unit/fluid/flow_config_test.cpp unit/fluid/time_step_test.cpp
+  LINKS brisance::fluid
+  LABELS unit)
+brisance_test(fluid_ghosts SOURCES unit/fluid/ghosts_test.cpp LINKS brisance::fluid RANKS 1 2 3 4 LABELS unit)
+brisance_test(fluid_initial_state
+  SOURCES unit/fluid/initial_state_test.cpp unit/fluid/rows_test.cpp
+  LINKS brisance::fluid
+  RANKS 1 3
+  LABELS unit)
+brisance_test(fluid_blast_bits SOURCES parallel/fluid/blast_test.cpp LINKS brisance::fluid RANKS 1 2 3 4 LABELS parallel)
+brisance_test(fluid_vortex SOURCES verification/fluid/vortex_test.cpp LINKS brisance::fluid LABELS verification)
+brisance_test(fluid_conservation
+  SOURCES verification/fluid/conservation_test.cpp
+  LINKS brisance::fluid
+  LABELS verification)

@@ -1,0 +1,99 @@
+#include "fluid/flow_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include "parallel/error.hpp"
+#include "tests/support/flow_case.hpp"
+
+namespace brisance::fluid {
+namespace {
+
+FlowConfig read(std::string const& text) { return read_keys<FlowConfig>(parse_toml(text, "scene.toml")); }
+
+std::string scene_error_of(std::string const& text) {
+  try {
+    FlowConfig const config = read(text);
+    check(config);
+    make_grid(config);
+  } catch (Error const& e) {
+    EXPECT_EQ(e.kind(), Failure::scene);
+    return e.what();
+  }
+  return "";
+}
+
+TEST(FlowConfig, ReadsASceneWithAllItsParts) {
+  FlowConfig const config = read(R"(
+low = ["0 m", "0 m"]
+high = ["12 m", "6 m"]
+cells = [600, 300]
+gas = { law = "ideal", gamma = 1.4 }
+ambient = { density = "1.2 kg/m3", pressure = "1 atm" }
+euler = { order = 11, cfl = 0.4 }
+boundary = { x_low = "outflow", y_low = "inflow" }
+[inflow.y_low]
+density = "2 kg/m3"
+pressure = "2 bar"
+velocity = ["0 m/s", "10 m/s"]
+[[region]]
+shape = "ball"
+centre = ["1 m", "3 m"]
+radius = "0.564 m"
+density = "99.9 kg/m3"
+pressure = "50662500 Pa"
+cells = "whole"
+[[charge]]
+centre = ["4 m", "3 m"]
+mass = "1 kg"
+density = "1000 kg/m3"
+)");
+  check(config);
+  Grid const grid = make_grid(config);
+  EXPECT_EQ(grid.dimension, 2);
+  EXPECT_EQ(grid.cells, (CellIndex{600, 300, 1}));
+  EXPECT_DOUBLE_EQ(grid.spacing.x, 0.02);
+  EXPECT_EQ(grid.spacing.z, 1);
+  EXPECT_EQ(grid.blocks_along(0), 10);
+  EXPECT_EQ(config.order(), 11);
+  EXPECT_EQ(config.ambient.pressure, 101325);
+  EXPECT_EQ(config.inflow.y_low->velocity.y, 10);
+  EXPECT_EQ(config.region.at(0).cells, "whole");
+  EXPECT_EQ(config.charge.at(0).tnt_factor, 1);
+  EXPECT_EQ(read_keys<FlowConfig>(parse_toml(write_keys(config), "resolved.toml")).high, config.high);
+}
+
+TEST(FlowConfig, TrailingOnesAreAbsentDirections) {
+  EXPECT_EQ(make_grid(read("high = [1, 1]\ncells = [20, 20, 1]")).dimension, 2);
+  EXPECT_EQ(make_grid(read("high = [1]\ncells = [20]")).dimension, 1);
+}
+
+TEST(FlowConfig, ErrorsNameWhatIsMissing) {
+  EXPECT_NE(scene_error_of("high = [1]\ncells = [20]\n[boundary]\nx_low = \"periodic\"").find("x_low and x_high"),
+            std::string::npos);
+  EXPECT_NE(scene_error_of("high = [1]\ncells = [20]\n[boundary]\nx_low = \"inflow\"").find("[fluid.inflow.x_low]"),
+            std::string::npos);
+  EXPECT_NE(scene_error_of("high = [1, 1, 1]\ncells = [20, 20]").find("no cells along z"), std::string::npos);
+  EXPECT_NE(scene_error_of("high = [0, 1]\ncells = [20, 20]").find("no extent along x"), std::string::npos);
+  EXPECT_NE(scene_error_of("high = [1]\ncells = [20]\n[[region]]\ndensity = 1\npressure = 1").find("a box needs"),
+            std::string::npos);
+  EXPECT_NE(scene_error_of("high = [1]\ncells = [20]\n[[charge]]\ncentre = [0.5]\nmass = 1").find("fluid.charge[0]"),
+            std::string::npos);
+  EXPECT_NE(scene_error_of("high = [1, 1]\ncells = [20, 4]\neuler = { order = 11 }").find("fluid.cells[1] = 4"),
+            std::string::npos);
+}
+
+TEST(FlowConfig, VacuumThresholdsFollowTheAmbientStateOrElseTheLargestRegion) {
+  FlowConfig config = testing::unit_box(1, 20);
+  config.ambient = {2, 8, {}};
+  EXPECT_DOUBLE_EQ(make_gas(config).vacuum_density, 2e-10);
+  EXPECT_DOUBLE_EQ(make_gas(config).vacuum_energy, 8e-12 / 0.4);
+  config.ambient = {0, 0, {}};
+  config.region.resize(2);
+  config.region[0].density = 3, config.region[0].pressure = 1;
+  config.region[1].density = 1, config.region[1].pressure = 5;
+  EXPECT_DOUBLE_EQ(make_gas(config).vacuum_density, 3e-10);
+  EXPECT_DOUBLE_EQ(make_gas(config).vacuum_energy, 5e-12 / 0.4);
+}
+
+}  // namespace
+}  // namespace brisance::fluid
