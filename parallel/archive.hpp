@@ -13,11 +13,14 @@
 namespace brisance::parallel {
 
 /// A run of consecutive global rows.
-struct Range { std::int64_t first = 0, count = 0; };
+struct Range {
+  std::int64_t first = 0, count = 0;
+};
 
 class ArchiveWriter {
  public:
-  /// Collective. Opens `path` + a temporary suffix in the same folder. Throws Error(system) with the path and the cause.
+  /// Collective. Opens `path` + a temporary suffix in the same folder. Throws Error(system) with the path and the
+  /// cause.
   ArchiveWriter(Comm& comm, std::string const& path);
   ~ArchiveWriter();  ///< not closed: the temporary file is removed
   ArchiveWriter(ArchiveWriter const&) = delete;
@@ -25,10 +28,14 @@ class ArchiveWriter {
   /// Collective. Dataset `name` of total_rows x columns doubles; this rank gives the rows of `ranges`, in that order.
   void rows(std::string const& name, std::int64_t total_rows, int columns, std::span<Range const> ranges,
             std::span<double const> data);
-  /// Collective. Rows with explicit ids, any number per rank (datasets name/id and name/data). Order in the file is free.
+  /// Collective. Rows with explicit ids, any number per rank (datasets name/id and name/data). Order in the file is
+  /// free.
   void sparse(std::string const& name, int columns, std::span<std::int64_t const> ids, std::span<double const> data);
-  /// Collective. A dense array [nz][ny][nx] (or [..][columns] when columns > 1); this rank gives boxes of it, x fastest.
-  struct Box { std::array<std::int64_t, 3> first, size; };  ///< x, y, z
+  /// Collective. A dense array [nz][ny][nx] (or [..][columns] when columns > 1); this rank gives boxes of it, x
+  /// fastest.
+  struct Box {
+    std::array<std::int64_t, 3> first, size;
+  };  ///< x, y, z
   void grid(std::string const& name, std::array<std::int64_t, 3> cells, int columns, std::span<Box const> boxes,
             std::span<double const> data, bool single_precision);
   /// Collective; identical on all ranks. Integer rows for connectivities and the like go through `rows_int`.
@@ -37,7 +44,8 @@ class ArchiveWriter {
   void attribute(std::string const& name, double value);
   void attribute(std::string const& name, std::int64_t value);
   void attribute(std::string const& name, std::string const& value);
-  /// Collective. Writes the checksum of all content, flushes, fsyncs, renames. Throws Error(system) on any rank's failure.
+  /// Collective. Writes the checksum of all content, flushes, fsyncs, renames. Throws Error(system) on any rank's
+  /// failure.
   void close();
 
  private:
@@ -53,7 +61,10 @@ class ArchiveReader {
   bool has(std::string const& name) const;
   std::vector<double> rows(std::string const& name, int columns, std::span<Range const> ranges);
   std::vector<std::int64_t> rows_int(std::string const& name, int columns, std::span<Range const> ranges);
-  struct Sparse { std::vector<std::int64_t> ids; std::vector<double> data; };
+  struct Sparse {
+    std::vector<std::int64_t> ids;
+    std::vector<double> data;
+  };
   Sparse sparse(std::string const& name, int columns);  ///< all rows, on every rank
   double real(std::string const& name) const;
   std::int64_t integer(std::string const& name) const;

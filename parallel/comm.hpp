@@ -1,5 +1,5 @@
-// What a program knows of other processes. Every call is collective unless it says otherwise: all ranks reach the calls in
-// the same order. Moves bytes; knows no physics. Two forms: serial (tests, one rank) and MPI.
+// What a program knows of other processes. Every call is collective unless it says otherwise: all ranks reach the calls
+// in the same order. Moves bytes; knows no physics. Two forms: serial (tests, one rank) and MPI.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -29,14 +29,15 @@ class Comm {
   virtual int rank() const = 0;
   virtual int size() const = 0;
 
-  virtual void min(std::span<double> values) = 0;             ///< element-wise, in place
+  /// Element-wise, in place. -0 < +0, and a NaN on any rank gives NaN: the same bits whatever the order of the ranks.
+  virtual void min(std::span<double> values) = 0;
   virtual void max(std::span<double> values) = 0;
-  virtual void sum(std::span<std::int64_t> values) = 0;       ///< integers: exact in any order
+  virtual void sum(std::span<std::int64_t> values) = 0;  ///< integers: exact in any order
   virtual void bit_or(std::span<std::uint64_t> values) = 0;
-  virtual void sum(std::span<ExactSum> sums) = 0;             ///< exact, same bits on every rank
-  virtual void sum(Digest& digest) = 0;                       ///< modulo 2^128
+  virtual void sum(std::span<ExactSum> sums) = 0;  ///< exact, same bits on every rank
+  virtual void sum(Digest& digest) = 0;            ///< modulo 2^128
   virtual void barrier() = 0;
-  virtual void broadcast(Bytes& data, int root) = 0;          ///< resizes on the receivers
+  virtual void broadcast(Bytes& data, int root) = 0;                   ///< resizes on the receivers
   virtual std::vector<Bytes> gather(Bytes const& mine, int root) = 0;  ///< at root: one per rank, in rank order
   virtual std::vector<Bytes> all_gather(Bytes const& mine) = 0;
 
@@ -44,23 +45,34 @@ class Comm {
   /// Returns the received ones sorted by source rank; several from one source keep their order.
   virtual std::vector<Message> deliver(std::vector<Message> outgoing) = 0;
 
-  /// Non-blocking exchange with known partners and sizes: buffers must outlive `finish`. One message per partner and tag.
-  struct Send { int rank; std::span<std::byte const> data; };
-  struct Receive { int rank; std::span<std::byte> data; };
+  /// Non-blocking exchange with known partners and sizes: buffers must outlive `finish`. One message per partner and
+  /// tag.
+  struct Send {
+    int rank;
+    std::span<std::byte const> data;
+  };
+  struct Receive {
+    int rank;
+    std::span<std::byte> data;
+  };
   class Pending {
    public:
-    virtual ~Pending() = default;
-    virtual void finish() = 0;  ///< waits for all sends and receives; not collective
+    virtual ~Pending() = default;  ///< never finished (an exception is on its way): receives nothing more
+    virtual void finish() = 0;     ///< waits for all sends and receives; not collective
   };
   virtual std::unique_ptr<Pending> start(std::span<Send const> sends, std::span<Receive const> receives, int tag) = 0;
 
-  /// Ends all ranks at once with this exit code after one message; for a failure of one rank alone. Never returns.
+  /// Ends all ranks at once with this exit code; for a failure of one rank alone, after it has said why. Never returns.
   [[noreturn]] virtual void abort(int exit_code) = 0;
+
+  /// The MPI_Comm behind this form, null in the serial one. For the archive, which hands it to HDF5.
+  virtual void* native() { return nullptr; }
 };
 
 /// One rank, no MPI.
 std::unique_ptr<Comm> serial();
-/// MPI_COMM_WORLD. Initialises MPI on first use and finalises it when the program ends.
+/// MPI_COMM_WORLD. Initialises MPI on first use and finalises it when the program ends. Errors of MPI become
+/// Error(system).
 std::unique_ptr<Comm> world(int& argc, char**& argv);
 
 /// Appends trivially copyable records to a byte buffer, and reads them back in order.

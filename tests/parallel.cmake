@@ -1,0 +1,4 @@
+# What lives below all physics: Comm, exact sums, digests, partitions, archives.
+brisance_test(parallel_values SOURCES unit/parallel/exact_sum_test.cpp unit/parallel/digest_test.cpp
+              LINKS brisance::parallel LABELS unit)
+brisance_test(parallel_comm SOURCES parallel/comm_test.cpp LINKS brisance::parallel RANKS 1 2 3 4 LABELS parallel)
