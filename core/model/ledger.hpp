@@ -1,0 +1,68 @@
+// What the coupled system holds, what crossed its boundaries, and the defect between the two (contract,
+// conservation.*).
+#pragma once
+#include <array>
+#include <cstddef>
+
+#include "core/base/vec3.hpp"
+#include "parallel/comm.hpp"
+
+namespace brisance {
+
+/// One line of the account. Totals are what is held now; the others are what came since the last audit.
+enum class Entry : std::size_t {
+  mass,
+  momentum_x,
+  momentum_y,
+  momentum_z,
+  energy,         // totals of fluid and solid
+  momentum_size,  // total of the momentum's size over cells and particles
+  fluid_energy,
+  solid_kinetic,
+  solid_elastic,  // parts of the energy
+  in_mass,
+  in_momentum_x,
+  in_momentum_y,
+  in_momentum_z,
+  in_energy,         // crossed the boundaries inwards, sources, reactions
+  fluid_in_energy,   // the part of in_energy that the fluid received
+  wall_work,         // work of the fluid on the solid
+  pressure_impulse,  // sum of the sizes of the impulses of all pressures
+  exchanged_energy,  // sum of the sizes of all exchanges of energy
+  count
+};
+constexpr std::size_t entry_count = static_cast<std::size_t>(Entry::count);
+
+/// Largest relative defects over the run.
+struct Conservation {
+  Real mass = 0;
+  Vec3 momentum;
+  Real exchange_energy = 0, energy = 0, energy_final = 0;
+};
+
+class Ledger {
+ public:
+  void add(Entry entry, Real value) { sums_[static_cast<std::size_t>(entry)].add(value); }
+  void add(Entry entry, parallel::ExactSum const& value) { sums_[static_cast<std::size_t>(entry)].add(value); }
+  /// Adds the three components starting at the x entry.
+  void add(Entry x_entry, Vec3 const& value);
+
+  /// Collective. Reduces what was added since the last audit and updates the defects; the first audit sets the
+  /// reference.
+  void audit(parallel::Comm& comm);
+  Conservation const& conservation() const { return result_; }
+  Real total(Entry entry) const { return totals_[static_cast<std::size_t>(entry)]; }
+
+  /// Everything a restart needs, as doubles; the same on every rank.
+  static constexpr std::size_t stored_size = 2 * entry_count + entry_count + 8;
+  std::array<Real, stored_size> store() const;
+  void restore(std::array<Real, stored_size> const& stored);
+
+ private:
+  std::array<parallel::ExactSum, entry_count> sums_{};
+  std::array<Real, entry_count> reference_{}, totals_{}, crossed_{};  // crossed: sums of the increments since the start
+  bool started_ = false;
+  Conservation result_;
+};
+
+}  // namespace brisance

@@ -1,0 +1,45 @@
+#include "core/model/plan.hpp"
+
+namespace brisance {
+
+void Plan::effect(std::string name, std::function<std::size_t()> bytes) {
+  effects_.push_back({std::move(name), 0, std::move(bytes)});
+}
+
+void Plan::at(Stage stage, std::function<void(Clock const&)> run) {
+  tasks_[static_cast<std::size_t>(stage)].push_back({effects_.size() - 1, std::move(run)});
+}
+
+char const* name(Stage stage) {
+  switch (stage) {
+    case Stage::predict:
+      return "predict";
+    case Stage::boundary:
+      return "boundary";
+    case Stage::sweeps:
+      return "sweeps";
+    case Stage::cut_cells:
+      return "cut_cells";
+    case Stage::load_solid:
+      return "load_solid";
+    case Stage::kick:
+      return "kick";
+    case Stage::drift:
+      return "drift";
+    case Stage::flow_update:
+      return "flow_update";
+    case Stage::mix:
+      return "mix";
+    case Stage::fill:
+      return "fill";
+    case Stage::forces:
+      return "forces";
+    case Stage::kick_again:
+      return "kick_again";
+    case Stage::count:
+      break;
+  }
+  return "?";
+}
+
+}  // namespace brisance

@@ -1,0 +1,80 @@
+// What the effects of a scene registered: tasks per stage, limits of the step, and what has to be kept, counted and
+// shown.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/model/clock.hpp"
+#include "core/model/ledger.hpp"
+#include "core/model/stage.hpp"
+#include "parallel/archive.hpp"
+
+namespace brisance {
+
+/// A rank's judgement of its part of the state after a step.
+struct Verdict {
+  bool good = true;
+  std::string message;  ///< what, where (cell, particle, rank), why
+};
+
+class Plan {
+ public:
+  struct Task {
+    std::size_t effect;
+    std::function<void(Clock const&)> run;
+  };
+  struct Limit {
+    std::string name;
+    std::function<Real(Clock const&)> seconds;  ///< local; the minimum over ranks counts
+  };
+  /// What an effect keeps of physics. `write` and `read` are collective; `save` and `restore` serve rejected pairs.
+  struct Keep {
+    std::function<void(parallel::ArchiveWriter&)> write;
+    std::function<void(parallel::ArchiveReader&)> read;
+    std::function<void()> save, restore;
+    std::function<void(parallel::Digest&)> digest;
+  };
+  struct EffectCost {
+    std::string name;
+    Real wall_s = 0;
+    std::function<std::size_t()> bytes;
+  };
+
+  /// Starts the registrations of one effect (scene section, e.g. "fluid.euler"); `bytes` tells what it holds on this
+  /// rank.
+  void effect(std::string name, std::function<std::size_t()> bytes);
+  void at(Stage stage, std::function<void(Clock const&)> run);
+  void limit(std::string name, std::function<Real(Clock const&)> seconds) {
+    limits_.push_back({std::move(name), std::move(seconds)});
+  }
+  void health(std::function<Verdict(Clock const&)> judge) { health_.push_back(std::move(judge)); }
+  void keep(Keep k) { kept_.push_back(std::move(k)); }
+  void account(std::function<void(Ledger&)> add) { accounts_.push_back(std::move(add)); }
+
+  std::vector<Task> const& tasks(Stage s) const { return tasks_[static_cast<std::size_t>(s)]; }
+  std::vector<Limit> const& limits() const { return limits_; }
+  std::vector<std::function<Verdict(Clock const&)>> const& judges() const { return health_; }
+  std::vector<Keep> const& kept() const { return kept_; }
+  std::vector<std::function<void(Ledger&)>> const& accounts() const { return accounts_; }
+  std::vector<EffectCost>& effects() { return effects_; }
+  std::vector<EffectCost> const& effects() const { return effects_; }
+
+ private:
+  std::array<std::vector<Task>, static_cast<std::size_t>(Stage::count)> tasks_;
+  std::vector<EffectCost> effects_;
+  std::vector<Limit> limits_;
+  std::vector<std::function<Verdict(Clock const&)>> health_;
+  std::vector<Keep> kept_;
+  std::vector<std::function<void(Ledger&)>> accounts_;
+};
+
+/// One physical effect. Exists only if the scene lists it.
+class Effect {
+ public:
+  virtual ~Effect() = default;
+  /// Registers state, tasks, limits, accounts. Called once, in catalogue order.
+  virtual void join(Plan& plan) = 0;
+};
+
+}  // namespace brisance

@@ -1,0 +1,173 @@
+#include "core/model/simulation.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "parallel/error.hpp"
+
+namespace brisance {
+
+// The `lag` coupling (theory/coupling.md section 5). Stages without tasks are empty loops.
+void Simulation::step() {
+  run(Stage::predict);
+  run(Stage::boundary);
+  run(Stage::sweeps);
+  run(Stage::cut_cells);
+  run(Stage::load_solid);
+  run(Stage::kick);
+  run(Stage::drift);
+  run(Stage::flow_update);
+  run(Stage::mix);
+  run(Stage::fill);
+  run(Stage::forces);
+  run(Stage::kick_again);
+  clock_.time += clock_.dt;
+  clock_.step += 1;
+}
+
+void Simulation::run(Stage stage) {
+  using Timer = std::chrono::steady_clock;
+  for (Plan::Task const& task : plan_.tasks(stage)) {
+    auto const start = Timer::now();
+    task.run(clock_);
+    plan_.effects()[task.effect].wall_s += std::chrono::duration<Real>(Timer::now() - start).count();
+  }
+}
+
+Real Simulation::choose_step(std::string& limited_by, bool& at_output) {
+  std::vector<Real> seconds;
+  for (Plan::Limit const& limit : plan_.limits()) seconds.push_back(limit.seconds(clock_));
+  comm_.min(std::span(seconds));
+  Real dt = std::numeric_limits<Real>::max();
+  for (std::size_t i = 0; i < seconds.size(); ++i)
+    if (seconds[i] < dt) dt = seconds[i], limited_by = plan_.limits()[i].name;
+  dt *= retry_factor_;
+  if (retry_factor_ < 1) limited_by = "retry";
+  // End time and output times are hit exactly; a pair is shortened, never one half of it.
+  Real target = control_.end_time;
+  bool output_first = false;
+  if (control_.output_interval > 0) {
+    Real const next = static_cast<Real>(outputs_done_ + 1) * control_.output_interval;
+    if (next < target * (1 - 1e-12)) target = next, output_first = true;
+  }
+  Real const room = target - clock_.time;
+  at_output = false;
+  if (dt * control_.steps_per_pair >= room * (1 - 1e-12)) {
+    dt = room / control_.steps_per_pair;
+    limited_by = output_first ? "output_time" : "end_time";
+    at_output = true;
+  }
+  return dt;
+}
+
+bool Simulation::healthy(std::string& message) {
+  bool good = true;
+  for (auto const& judge : plan_.judges()) {
+    Verdict const h = judge(clock_);
+    if (!h.good && good) good = false, message = h.message;
+  }
+  std::uint64_t bad = good ? 0 : 1;
+  comm_.bit_or(std::span(&bad, 1));
+  if (bad == 0) return true;
+  parallel::Bytes mine(message.size());
+  std::memcpy(mine.data(), message.data(), message.size());
+  for (parallel::Bytes const& text : comm_.all_gather(mine))
+    if (!text.empty()) {
+      message.assign(reinterpret_cast<char const*>(text.data()), text.size());
+      break;
+    }
+  return false;
+}
+
+void Simulation::pair() {
+  for (Plan::Keep const& k : plan_.kept()) k.save();
+  Clock const start = clock_;
+  auto const ledger_start = ledger_;
+  for (int halvings = 0;; ++halvings) {
+    std::string limited_by, message;
+    bool at_output = false;
+    clock_.dt = choose_step(limited_by, at_output);
+    bool good = true;
+    for (int s = 0; s < control_.steps_per_pair && good; ++s) {
+      step();
+      good = healthy(message);
+    }
+    if (good) {
+      if (at_output) {  // land on the time itself, not on a sum of roundings
+        bool const interval = limited_by == "output_time";
+        if (interval) ++outputs_done_;
+        clock_.time = interval ? static_cast<Real>(outputs_done_) * control_.output_interval : control_.end_time;
+      }
+      at_output_ = at_output;
+      limited_by_ = limited_by;
+      statistics_.dt_min = statistics_.dt_max == 0 ? clock_.dt : min(statistics_.dt_min, clock_.dt);
+      statistics_.dt_max = max(statistics_.dt_max, clock_.dt);
+      statistics_.limited_by[limited_by] += control_.steps_per_pair;
+      retry_factor_ = min(1, 2 * retry_factor_);
+      audit();
+      return;
+    }
+    ++statistics_.retries;
+    require(halvings < 10, Failure::numerical,
+            message + " (step " + std::to_string(clock_.step) + ", t = " + std::to_string(clock_.time) +
+                " s, after 10 halvings of dt; lower the Courant number or refine the grid)");
+    for (Plan::Keep const& k : plan_.kept()) k.restore();
+    clock_ = start;
+    ledger_ = ledger_start;
+    retry_factor_ *= 0.5;
+  }
+}
+
+void Simulation::audit() {
+  for (auto const& account : plan_.accounts()) account(ledger_);
+  ledger_.audit(comm_);
+}
+
+parallel::Digest Simulation::digest() {
+  parallel::Digest digest;
+  for (Plan::Keep const& k : plan_.kept()) k.digest(digest);
+  comm_.sum(digest);
+  std::array<double, 2> const time{clock_.time, static_cast<double>(clock_.step)};
+  digest.add(0, 0, time);
+  return digest;
+}
+
+void Simulation::write(parallel::ArchiveWriter& file) {
+  file.attribute("time", clock_.time);
+  file.attribute("step", clock_.step);
+  file.attribute("retry_factor", retry_factor_);
+  file.attribute("outputs_done", outputs_done_);
+  file.attribute("dt_min", statistics_.dt_min);
+  file.attribute("dt_max", statistics_.dt_max);
+  file.attribute("retries", statistics_.retries);
+  std::string limits;
+  for (auto const& [limit, steps] : statistics_.limited_by) limits += limit + "=" + std::to_string(steps) + ";";
+  file.attribute("limited_by", limits);
+  auto const account = ledger_.store();
+  parallel::Range const all{0, comm_.rank() == 0 ? static_cast<std::int64_t>(account.size()) : 0};
+  file.rows("ledger", static_cast<std::int64_t>(account.size()), 1, std::span(&all, 1),
+            std::span(account).first(static_cast<std::size_t>(all.count)));
+  for (Plan::Keep const& k : plan_.kept()) k.write(file);
+}
+
+void Simulation::read(parallel::ArchiveReader& file) {
+  clock_.time = file.real("time");
+  clock_.step = file.integer("step");
+  retry_factor_ = file.real("retry_factor");
+  outputs_done_ = file.integer("outputs_done");
+  statistics_ = {file.real("dt_min"), file.real("dt_max"), {}, file.integer("retries")};
+  std::string const limits = file.text("limited_by");
+  for (std::size_t at = 0; at < limits.size();) {
+    std::size_t const equal = limits.find('=', at), stop = limits.find(';', equal);
+    statistics_.limited_by[limits.substr(at, equal - at)] = std::stoll(limits.substr(equal + 1, stop - equal - 1));
+    at = stop + 1;
+  }
+  parallel::Range const all{0, static_cast<std::int64_t>(Ledger::stored_size)};
+  std::vector<double> const rows = file.rows("ledger", 1, std::span(&all, 1));
+  std::array<Real, Ledger::stored_size> account{};
+  std::copy(rows.begin(), rows.end(), account.begin());
+  ledger_.restore(account);
+  for (Plan::Keep const& k : plan_.kept()) k.read(file);
+}
+
+}  // namespace brisance

@@ -1,0 +1,64 @@
+// The coupled step, and the pair of steps that is the unit of everything that chooses or interrupts (theory/coupling.md
+// 5).
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/model/plan.hpp"
+
+namespace brisance {
+
+struct TimeControl {
+  Real end_time = 0;
+  int steps_per_pair = 2;    ///< 1 in 1D and without a fluid
+  Real output_interval = 0;  ///< s; steps are shortened to hit its multiples; 0: none
+};
+
+struct StepStatistics {
+  Real dt_min = 0, dt_max = 0;
+  std::map<std::string, std::int64_t> limited_by;  ///< steps per limit
+  std::int64_t retries = 0;                        ///< rejected pairs
+};
+
+class Simulation {
+ public:
+  Simulation(Plan& plan, parallel::Comm& comm, TimeControl control) : plan_(plan), comm_(comm), control_(control) {}
+
+  /// Collective. Advances by one pair; a pair in bad health is redone from its start with half the step.
+  /// Errors: Failure::numerical after 10 halvings, naming the place and the cause.
+  void pair();
+  bool finished() const { return clock_.time >= control_.end_time; }
+
+  Clock const& clock() const { return clock_; }
+  Ledger const& ledger() const { return ledger_; }
+  std::string const& limited_by() const { return limited_by_; }  ///< what limited the last pair
+  StepStatistics const& statistics() const { return statistics_; }
+  /// True when the last pair ended on a multiple of the output interval.
+  bool at_output_time() const { return at_output_; }
+  /// Collective. Takes the account of the present state: before the first pair and after each.
+  void audit();
+  /// Collective.
+  parallel::Digest digest();
+  void write(parallel::ArchiveWriter& file);
+  void read(parallel::ArchiveReader& file);
+
+ private:
+  void step();
+  void run(Stage stage);
+  Real choose_step(std::string& limited_by, bool& at_output);
+  bool healthy(std::string& message);
+
+  Plan& plan_;
+  parallel::Comm& comm_;
+  TimeControl control_;
+  Clock clock_;
+  Ledger ledger_;
+  StepStatistics statistics_;
+  Real retry_factor_ = 1;
+  std::int64_t outputs_done_ = 0;  ///< multiples of the output interval already reached
+  bool at_output_ = false;
+  std::string limited_by_;
+};
+
+}  // namespace brisance

@@ -1,0 +1,25 @@
+// The vocabulary of a coupled step, in the order of the algorithm (theory/coupling.md section 5).
+#pragma once
+#include <cstddef>
+
+namespace brisance {
+
+enum class Stage {
+  predict,      ///< X*: kick and drift under the fluid load of the last step
+  boundary,     ///< deformed boundary of X* = geometry of record at t^{n+1}; triangles on their way
+  sweeps,       ///< one task per sweep
+  cut_cells,    ///< fractions, apertures, swept volumes of the new geometry
+  load_solid,   ///< wall pressure -> vertices -> force and torque on particles
+  kick,         ///< from X^n, V^n again: V^{n+1/2}
+  drift,        ///< X^{n+1}; velocities of the boundary vertices
+  flow_update,  ///< contents of cut cells
+  mix,          ///< small cut cells, conservatively
+  fill,         ///< the new geometry becomes the record; mirror states
+  forces,       ///< internal forces at t^{n+1}
+  kick_again,   ///< V^{n+1}
+  count
+};
+
+char const* name(Stage stage);
+
+}  // namespace brisance

@@ -1,0 +1,103 @@
+#include "core/solid/effects.hpp"
+
+#include "parallel/archive.hpp"
+
+namespace brisance::solid {
+
+namespace {
+
+constexpr std::size_t bytes_per_link = 176;  // ends, stiffness, area, arms, normal, bending tensor
+
+/// Consecutive ids as ranges of rows.
+std::vector<parallel::Range> rows_of(std::span<GlobalId const> ids) {
+  std::vector<parallel::Range> ranges;
+  for (GlobalId const id : ids) {
+    if (!ranges.empty() && ranges.back().first + ranges.back().count == id)
+      ++ranges.back().count;
+    else
+      ranges.push_back({id, 1});
+  }
+  return ranges;
+}
+
+}  // namespace
+
+void Dynamics::join(Plan& plan) {
+  plan.effect("solid.motion", [this] {
+    return static_cast<std::size_t>(solid_.count()) *
+           (sizeof(Pose) + sizeof(Motion) + sizeof(HalfVelocity) + 2 * sizeof(Wrench) + sizeof(Inertia));
+  });
+  plan.at(Stage::kick, [this](Clock const& c) { solid_.half_kick(c.dt); });
+  plan.at(Stage::drift, [this](Clock const& c) {
+    solid_.drift(c.dt);
+    solid_.exchange_pose();
+  });
+  plan.at(Stage::kick_again, [this](Clock const& c) {
+    solid_.half_kick(c.dt);
+    elapsed_ += c.dt;
+  });
+  plan.limit("solid.motion",
+             [this](Clock const&) { return solid_.stable_limit().by_rotation ? solid_.stable_step() : 1e300; });
+  plan.account([this](Ledger& ledger) { account(ledger); });
+  auto saved = std::make_shared<Solid::Saved>();
+  Plan::Keep keep;
+  keep.save = [this, saved] { solid_.save(*saved); };
+  keep.restore = [this, saved] {
+    solid_.restore(*saved, Solid::Restore::state_and_load);
+    elapsed_ = 0;
+    solid_.exchange_pose();
+  };
+  keep.write = [this](parallel::ArchiveWriter& file) {
+    file.rows("solid/particles", solid_.mesh().size(), Solid::row_size, rows_of(solid_.owned_ids()), solid_.pack());
+  };
+  keep.read = [this](parallel::ArchiveReader& file) {
+    solid_.unpack(solid_.owned_ids(), file.rows("solid/particles", Solid::row_size, rows_of(solid_.owned_ids())));
+    solid_.exchange_pose();
+  };
+  keep.digest = [this](parallel::Digest& digest) { solid_.digest(digest); };
+  plan.keep(std::move(keep));
+
+  if (config_.gravity) plan.effect("solid.gravity", [] { return std::size_t{0}; });
+  if (config_.links) {
+    plan.effect("solid.links", [this] { return solid_.links() * (bytes_per_link + 2 * sizeof(Wrench)); });
+    plan.at(Stage::forces, [this](Clock const&) {
+      solid_.compute_forces();
+      link_updates_ += static_cast<std::int64_t>(solid_.links());
+    });
+    plan.limit("solid.links",
+               [this](Clock const&) { return solid_.stable_limit().by_rotation ? 1e300 : solid_.stable_step(); });
+  }
+}
+
+void Dynamics::start() {
+  solid_.exchange_pose();
+  if (config_.links) solid_.compute_forces();
+}
+
+void Dynamics::account(Ledger& ledger) {
+  Measures here;
+  solid_.measure(here);
+  ledger.add(Entry::mass, here.sums[Measures::mass]);
+  for (std::size_t d = 0; d < 3; ++d)
+    ledger.add(static_cast<Entry>(static_cast<std::size_t>(Entry::momentum_x) + d), here.sums[Measures::momentum + d]);
+  ledger.add(Entry::energy, here.sums[Measures::kinetic]);
+  ledger.add(Entry::energy, here.sums[Measures::elastic]);
+  ledger.add(Entry::solid_kinetic, here.sums[Measures::kinetic]);
+  ledger.add(Entry::solid_elastic, here.sums[Measures::elastic]);
+  ledger.add(Entry::momentum_size, here.sums[Measures::momentum_scale]);
+  Reactions const supports = solid_.take_reactions();
+  for (std::size_t d = 0; d < 3; ++d)
+    ledger.add(static_cast<Entry>(static_cast<std::size_t>(Entry::in_momentum_x) + d), supports.sums[d]);
+  ledger.add(Entry::in_energy, supports.sums[6]);
+  if (config_.gravity) {
+    // Weight as a potential energy of the free particles, and its impulse as one that crosses the boundary.
+    Vec3 const g = *config_.gravity, moment = here.vector(Measures::first_moment);
+    ledger.add(Entry::energy, -dot(g, moment));
+    ledger.add(Entry::in_momentum_x, (elapsed_ * here.value(Measures::free_mass)) * g);
+  }
+  elapsed_ = 0;
+  ledger.add(Entry::pressure_impulse, norm(supports.impulse()));
+  ledger.add(Entry::exchanged_energy, std::abs(supports.work()));
+}
+
+}  // namespace brisance::solid

@@ -1,0 +1,27 @@
+// The effects of the solid: motion (kicks and drifts) and elastic links.
+#pragma once
+#include "core/model/plan.hpp"
+#include "core/solid/solid.hpp"
+
+namespace brisance::solid {
+
+/// Registers solid.motion, and solid.links and solid.gravity when the scene lists them.
+class Dynamics : public Effect {
+ public:
+  Dynamics(SolidConfig const& config, Solid& solid, parallel::Comm& comm)
+      : config_(config), solid_(solid), comm_(comm) {}
+  void join(Plan& plan) override;
+  /// Collective. Ghost poses and internal forces of the initial state.
+  void start();
+  std::int64_t link_updates() const { return link_updates_; }
+
+ private:
+  void account(Ledger& ledger);
+  SolidConfig config_;
+  Solid& solid_;
+  parallel::Comm& comm_;
+  std::int64_t link_updates_ = 0;
+  Real elapsed_ = 0;  ///< s since the last account
+};
+
+}  // namespace brisance::solid

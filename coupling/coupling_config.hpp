@@ -1,0 +1,31 @@
+// The scene's [coupling] section.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "core/base/keys.hpp"
+
+namespace brisance::coupling {
+
+/// Moving cut cells, time coupling `lag` (theory/coupling.md 1.8, 5).
+struct CutCellsConfig {
+  double small_cell = 0.5;
+  std::string wall_pressure = "half_riemann";
+  static void keys(Keys<CutCellsConfig>& k) {
+    k("small_cell", &CutCellsConfig::small_cell, "1", "cells with less than this fraction of fluid are merged")
+        .above(0)
+        .at_most(0.5);
+    k("wall_pressure", &CutCellsConfig::wall_pressure, "",
+      "pressure on the wall: that of the cell, or corrected by the half-Riemann factor chi*")
+        .one_of({"cell", "half_riemann"});
+  }
+};
+
+struct CouplingConfig {
+  std::optional<CutCellsConfig> cut_cells;
+  static void keys(Keys<CouplingConfig>& k) {
+    k("cut_cells", &CouplingConfig::cut_cells, "", "conservative moving cut cells between [fluid] and [solid]");
+  }
+};
+
+}  // namespace brisance::coupling

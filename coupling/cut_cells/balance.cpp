@@ -1,0 +1,173 @@
+// The balance of the cut cells in content form (theory/coupling.md 1.3): what was there, what the wall swept from and
+// to the neighbours, what the faces and the wall let through.
+#include <algorithm>
+
+#include "coupling/cut_cells/cell_geometry.hpp"
+#include "coupling/cut_cells/cut_cells.hpp"
+
+namespace brisance::coupling {
+
+using fluid::Block;
+using fluid::State;
+
+namespace {
+void add(State& to, Real factor, State const& u) {
+  for (std::size_t q = 0; q < 5; ++q) to[q] += factor * u[q];
+}
+}  // namespace
+
+void CutCells::transfers() {
+  fluid::Grid const& grid = flow_.grid();
+  transfers_.clear();
+  if (!moved_) return;
+  std::vector<CellBox> near;
+  for (Block const& block : flow_.blocks()) near.push_back(grown(grid, box_of(block), 1));
+  std::vector<GlobalId> wanted;
+  for (CutCell const& cut : next_.geometry.cells) {
+    if (!grid.inside(cut.cell)) continue;
+    bool const here = owned(cut.cell);
+    if (!here && std::none_of(near.begin(), near.end(), [&](CellBox const& b) { return b.holds(cut.cell); })) continue;
+    GlobalId const to = grid.cell_id(cut.cell);
+    for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
+      Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
+      swept_.clear();
+      swept(next_.lattice(), next_.geometry, piece, next_.triangles[static_cast<std::size_t>(piece.triangle)], swept_);
+      for (Swept const& s : swept_) {
+        // Both cells inside, or the exchange is dropped for both.
+        if (s.cell == cut.cell || !grid.inside(s.cell) || s.volume == 0) continue;
+        if (!here && !owned(s.cell)) continue;
+        transfers_.push_back({to, grid.cell_id(s.cell), s.volume});
+        wanted.push_back(transfers_.back().from);
+      }
+    }
+  }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  swept_states_.plan(comm_, flow_, std::move(wanted));
+  swept_states_.refresh(comm_, [&](Block const& b, Index i, Index j, Index k) {
+    WallBlock const& wall = sweeper_.blocks().at(b.id());
+    return wall.before[wall.cell(i, j, k)];
+  });
+}
+
+State CutCells::content_before(CellIndex c) const {
+  fluid::Grid const& grid = flow_.grid();
+  if (record_.solid(c)) {
+    GlobalId const id = grid.cell_id(c);
+    auto const at =
+        std::lower_bound(kept_.begin(), kept_.end(), id, [](Content const& k, GlobalId i) { return k.cell < i; });
+    return at != kept_.end() && at->cell == id ? at->amount : State{};
+  }
+  Block const& block = *flow_.find(grid.block_of(c));
+  CellIndex const first = block.first();
+  WallBlock const& wall = sweeper_.blocks().at(block.id());
+  State u = wall.before[wall.cell(c[0] - first[0], c[1] - first[1], c[2] - first[2])];
+  Real const v = record_.volume(c);
+  for (Real& x : u) x *= v;
+  return u;
+}
+
+void CutCells::update_contents(Real dt) {
+  fluid::Grid const& grid = flow_.grid();
+  transfers();
+
+  // The cells to rewrite: with pieces now or before, covered ones that hold something, and those a transfer touches.
+  std::vector<GlobalId> band;
+  for (WallRecord const* r : {&record_, &next_})
+    for (CutCell const& cut : r->geometry.cells)
+      if (owned(cut.cell)) band.push_back(grid.cell_id(cut.cell));
+  for (Content const& k : kept_) band.push_back(k.cell);
+  for (Transfer const& t : transfers_)
+    for (GlobalId const id : {t.to, t.from})
+      if (owned(cell_from_id(grid, id))) band.push_back(id);
+  std::sort(band.begin(), band.end());
+  band.erase(std::unique(band.begin(), band.end()), band.end());
+  contents_.clear();
+  for (GlobalId const id : band) contents_.push_back({id, content_before(cell_from_id(grid, id))});
+  auto const content = [&](GlobalId id) -> State* {
+    auto const at = std::lower_bound(contents_.begin(), contents_.end(), id,
+                                     [](Content const& c, GlobalId i) { return c.cell < i; });
+    return at != contents_.end() && at->cell == id ? &at->amount : nullptr;
+  };
+
+  // In the order of pieces, which is that of cells and triangles on every rank.
+  for (Transfer const& t : transfers_) {
+    State const& u = swept_states_[swept_states_.slot(t.from)];
+    if (State* to = content(t.to)) add(*to, t.volume, u);
+    if (State* from = content(t.from)) add(*from, -t.volume, u);
+  }
+
+  for (Content& c : contents_) {
+    CellIndex const cell = cell_from_id(grid, c.cell);
+    Block const& block = *flow_.find(grid.block_of(cell));
+    CellIndex const first = block.first();
+    CellIndex const l{cell[0] - first[0], cell[1] - first[1], cell[2] - first[2]};
+    WallBlock const& wall = sweeper_.blocks().at(block.id());
+    for (int d = 0; d < grid.dimension; ++d) {
+      auto const dir = static_cast<std::size_t>(d);
+      for (int side = 0; side < 2; ++side) {
+        CellIndex face = l;
+        face[dir] += side;
+        Real const aperture = next_.aperture(cell, d, side);
+        if (aperture != 0)
+          add(c.amount, (side == 0 ? dt : -dt) * aperture, wall.flux[dir][wall.face(d, face[0], face[1], face[2])]);
+      }
+    }
+    Index const cut_index = next_.cut_index(cell);
+    if (cut_index < 0) continue;
+    CutCell const& cut = next_.cut(cut_index);
+    Vec3 pressure;
+    for (int d = 0; d < grid.dimension; ++d)
+      pressure[d] = wall.pressure[static_cast<std::size_t>(d)][wall.cell(l[0], l[1], l[2])];
+    for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
+      Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
+      Real const chi = piece_factor_[static_cast<std::size_t>(f)];
+      // The same numbers as the force on the solid, with the opposite sign.
+      Vec3 const force{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y,
+                       -chi * pressure.z * piece.area.z};
+      Vec3 const velocity = next_.wall_velocity(piece.triangle, piece.bary_centroid);
+      Real const work = dot(force, velocity);
+      for (int d = 0; d < 3; ++d) c.amount[static_cast<std::size_t>(d) + 1] -= dt * force[d];
+      c.amount[4] -= dt * work;
+      pressure_impulse_.add(dt * norm(force));
+      exchanged_energy_.add(dt * std::abs(work));
+    }
+  }
+  boundary_account(dt);
+}
+
+void CutCells::boundary_account(Real dt) {
+  fluid::Grid const& grid = flow_.grid();
+  for (auto const& [id, wall] : sweeper_.blocks()) {
+    Block const& block = *flow_.find(id);
+    CellIndex const first = block.first();
+    for (int d = 0; d < grid.dimension; ++d) {
+      auto const dir = static_cast<std::size_t>(d);
+      if (grid.periodic[dir]) continue;
+      std::size_t const t0 = d == 0 ? 1 : 0, t1 = d == 2 ? 1 : 2;
+      for (int side = 0; side < 2; ++side) {
+        Index const cell = side == 0 ? 0 : wall.size[dir] - 1;
+        if (first[dir] + cell != (side == 0 ? 0 : grid.cells[dir] - 1)) continue;
+        State sum{};
+        Real impulse = 0;
+        for (Index b = 0; b < wall.size[t1]; ++b)
+          for (Index a = 0; a < wall.size[t0]; ++a) {
+            CellIndex c{};
+            c[dir] = cell, c[t0] = a, c[t1] = b;
+            CellIndex face = c;
+            face[dir] += side;
+            Real const area = next_.aperture({first[0] + c[0], first[1] + c[1], first[2] + c[2]}, d, side);
+            if (area == 0) continue;
+            State const& f = wall.flux[dir][wall.face(d, face[0], face[1], face[2])];
+            add(sum, (side == 0 ? dt : -dt) * area, f);
+            impulse += dt * area * std::abs(f[1 + dir]);
+          }
+        for (std::size_t q = 0; q < 5; ++q) crossed_[q].add(sum[q]);
+        pressure_impulse_.add(impulse);
+        exchanged_energy_.add(std::abs(sum[4]));
+      }
+    }
+  }
+}
+
+}  // namespace brisance::coupling

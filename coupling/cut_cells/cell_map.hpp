@@ -1,0 +1,45 @@
+// A value per grid cell over a box of cells, with a default everywhere else.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "coupling/geometry/surface.hpp"
+
+namespace brisance::coupling {
+
+inline bool empty(CellBox const& b) { return b.low[0] >= b.high[0] || b.low[1] >= b.high[1] || b.low[2] >= b.high[2]; }
+inline bool contains(CellBox const& outer, CellBox const& inner) {
+  for (std::size_t d = 0; d < 3; ++d)
+    if (inner.low[d] < outer.low[d] || inner.high[d] > outer.high[d]) return false;
+  return true;
+}
+
+template <class T>
+class CellMap {
+ public:
+  /// Covers `range`; all cells hold `nothing`.
+  void cover(CellBox const& range, T nothing) {
+    nothing_ = nothing;
+    range_ = range;
+    stride_y_ = static_cast<std::ptrdiff_t>(range.high[0] - range.low[0]);
+    stride_z_ = stride_y_ * (range.high[1] - range.low[1]);
+    data_.assign(empty(range) ? 0 : static_cast<std::size_t>(stride_z_ * (range.high[2] - range.low[2])), nothing);
+  }
+  CellBox const& range() const { return range_; }
+  T at(CellIndex c) const { return range_.holds(c) ? data_[offset(c)] : nothing_; }
+  /// Expects: c inside the range.
+  void set(CellIndex c, T value) { data_[offset(c)] = value; }
+  std::size_t bytes() const { return data_.size() * sizeof(T); }
+
+ private:
+  std::size_t offset(CellIndex c) const {
+    return static_cast<std::size_t>((c[0] - range_.low[0]) + stride_y_ * (c[1] - range_.low[1]) +
+                                    stride_z_ * (c[2] - range_.low[2]));
+  }
+  CellBox range_;
+  std::ptrdiff_t stride_y_ = 0, stride_z_ = 0;
+  T nothing_{};
+  std::vector<T> data_;
+};
+
+}  // namespace brisance::coupling

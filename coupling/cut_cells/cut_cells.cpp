@@ -1,0 +1,320 @@
+#include "coupling/cut_cells/cut_cells.hpp"
+
+#include <algorithm>
+
+#include "coupling/cut_cells/cell_geometry.hpp"
+#include "coupling/cut_cells/mixing.hpp"
+
+namespace brisance::coupling {
+
+using fluid::Block;
+using fluid::State;
+
+namespace {
+/// Cells around its blocks within which a rank keeps pieces: runs beyond the ghosts, projections, images and their
+/// neighbourhoods all stay inside.
+constexpr Index margin = 20;
+}  // namespace
+
+CutCells::CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid& solid, solid::Surface const& surface,
+                   fluid::State const& ambient, parallel::Comm& comm)
+    : config_(config),
+      flow_(flow),
+      solid_(solid),
+      comm_(comm),
+      surface_(solid, surface, flow, comm, margin),
+      sweeper_(flow, comm) {
+  std::vector<CellBox> region;
+  for (Block const& block : flow.blocks()) region.push_back(grown(flow.grid(), box_of(block), margin));
+  for (WallRecord* r : {&record_, &next_}) {
+    r->set_grid(flow.grid());
+    r->set_region(region);
+  }
+  sweeper_.ambient = ambient;
+  flow.set_sweeper(&sweeper_);
+}
+
+bool CutCells::owned(CellIndex c) const {
+  return flow_.grid().inside(c) && flow_.owner(flow_.grid().block_of(c)) == comm_.rank();
+}
+
+void CutCells::cut_initial_geometry() {
+  solid_.exchange_pose();
+  surface_.start();
+  surface_.send_triangles(record_.triangles);
+  rebuild_record();
+}
+
+void CutCells::start() {
+  // Small cells of the initial fields merge like those of a step.
+  next_.triangles = record_.triangles;
+  next_.rebuild();
+  fluid::Grid const& grid = flow_.grid();
+  contents_.clear();
+  for (CutCell const& cut : record_.geometry.cells)
+    if (owned(cut.cell)) {
+      Block const& block = *flow_.find(grid.block_of(cut.cell));
+      CellIndex const first = block.first();
+      State u = block.load(cut.cell[0] - first[0], cut.cell[1] - first[1], cut.cell[2] - first[2]);
+      Real const v = record_.solid(cut.cell) ? 0 : record_.volume(cut.cell);
+      for (Real& x : u) x *= v;
+      contents_.push_back({grid.cell_id(cut.cell), u});
+    }
+  std::sort(contents_.begin(), contents_.end(), [](auto const& a, auto const& b) { return a.cell < b.cell; });
+  mix();
+  sweeper_.rebuild(record_);
+  std::vector<CellForce> forces;
+  wall_pressure(record_, true, forces);
+  surface_.apply(forces);
+}
+
+void CutCells::rebuild_record() {
+  record_.rebuild();
+  sweeper_.rebuild(record_);
+  same_ = false;
+}
+
+void CutCells::join(Plan& plan) {
+  plan.effect("coupling.cut_cells", [this] { return record_.bytes() + next_.bytes() + sweeper_.bytes(); });
+  plan.at(Stage::predict, [this](Clock const& c) { predict(c.dt); });
+  plan.at(Stage::boundary, [this](Clock const&) { new_geometry(); });
+  plan.at(Stage::load_solid, [this](Clock const&) { load_solid(); });
+  plan.at(Stage::drift, [this](Clock const& c) {
+    surface_.update_velocities();
+    surface_.send_velocities(next_.triangles);
+    solid_.add_load_work(c.dt, wall_work_);
+  });
+  plan.at(Stage::flow_update, [this](Clock const& c) { update_contents(c.dt); });
+  plan.at(Stage::mix, [this](Clock const&) { mix(); });
+  plan.at(Stage::fill, [this](Clock const&) { fill(); });
+  plan.limit("coupling.wall", [this](Clock const&) {
+    Real seconds = std::numeric_limits<Real>::max();
+    for (int d = 0; d < flow_.grid().dimension; ++d)
+      if (Real const w = surface_.fastest_vertex(d); w > 0) seconds = min(seconds, 0.4 * flow_.grid().spacing[d] / w);
+    return seconds;
+  });
+  plan.health([this](Clock const&) { return judge(); });
+  plan.account([this](Ledger& ledger) { account(ledger); });
+  Plan::Keep keep;
+  keep.save = [this] {
+    surface_.save();
+    kept_saved_ = kept_;
+  };
+  keep.restore = [this] {
+    surface_.restore();
+    kept_ = kept_saved_;
+    surface_.send_triangles(record_.triangles);
+    rebuild_record();
+    for (auto& sum : crossed_) sum = {};
+    wall_work_ = pressure_impulse_ = exchanged_energy_ = {};
+    health_ = {};
+  };
+  keep.write = [this](parallel::ArchiveWriter& file) {
+    surface_.write(file);
+    std::vector<std::int64_t> ids;
+    std::vector<double> rows;
+    for (Content const& k : kept_) ids.push_back(k.cell), rows.insert(rows.end(), k.amount.begin(), k.amount.end());
+    file.sparse("coupling/covered", 5, ids, rows);
+  };
+  keep.read = [this](parallel::ArchiveReader& file) {
+    surface_.read(file);
+    parallel::ArchiveReader::Sparse const stored = file.sparse("coupling/covered", 5);
+    kept_.clear();
+    for (std::size_t s = 0; s < stored.ids.size(); ++s) {
+      if (!owned(cell_from_id(flow_.grid(), stored.ids[s]))) continue;
+      Content k{stored.ids[s], {}};
+      std::copy_n(stored.data.begin() + static_cast<std::ptrdiff_t>(5 * s), 5, k.amount.begin());
+      kept_.push_back(k);
+    }
+    std::sort(kept_.begin(), kept_.end(), [](auto const& a, auto const& b) { return a.cell < b.cell; });
+    surface_.send_triangles(record_.triangles);
+    rebuild_record();
+  };
+  keep.digest = [this](parallel::Digest& d) { digest(d); };
+  plan.keep(std::move(keep));
+}
+
+void CutCells::predict(Real dt) {
+  solid_.save(solid_before_);
+  solid_.half_kick(dt);
+  solid_.drift(dt);
+  solid_.exchange_pose();
+  surface_.predict();
+}
+
+void CutCells::new_geometry() {
+  surface_.send_triangles(next_.triangles);
+  sweeper_.begin_step();
+  std::int64_t state[2] = {0, 0};  // triangles that move, and that run away
+  for (SurfaceTriangle const& t : next_.triangles) {
+    if (!t.moved(flow_.grid().dimension)) continue;
+    state[0] = 1;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(flow_.grid().dimension); ++a)
+      for (int d = 0; d < flow_.grid().dimension; ++d)
+        if (!(std::abs(t.x_new[a][d] - t.x_old[a][d]) <= 0.5 * flow_.grid().spacing[d])) {
+          state[1] = 1;
+          if (health_.good)
+            health_ = {false, "the wall (triangle " + std::to_string(t.id) + ") moves more than half a cell in a step"};
+        }
+  }
+  comm_.sum(std::span(state));
+  moved_ = state[0] > 0;
+  if (state[1] > 0) {  // a geometry that runs away is not built: the pair is rejected after this step
+    next_.triangles = record_.triangles;
+    moved_ = false;
+    same_ = false;
+  }
+  if (moved_ || !same_) next_.rebuild();
+  same_ = !moved_;
+}
+
+void CutCells::load_solid() {
+  std::vector<CellForce> forces;
+  wall_pressure(next_, false, forces);
+  surface_.apply(forces);
+  solid_.restore(solid_before_);
+}
+
+void CutCells::mix() {
+  fluid::Grid const& grid = flow_.grid();
+  std::vector<CellBox> near;
+  for (Block const& block : flow_.blocks()) near.push_back(grown(grid, box_of(block), mixing_halo));
+  auto const within = [&](CellIndex c) {
+    return std::any_of(near.begin(), near.end(), [&](CellBox const& b) { return b.holds(c); });
+  };
+  std::vector<GlobalId> ids;
+  for (WallRecord const* r : {&record_, &next_})
+    for (CutCell const& cut : r->geometry.cells)
+      for_neighbourhood(grid, cut.cell, 2, [&](CellIndex c) {
+        if (grid.inside(c) && within(c)) ids.push_back(grid.cell_id(c));
+      });
+  for (Content const& c : contents_) ids.push_back(c.cell);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+
+  std::vector<NearCell> cells(ids.size());
+  Real const full = grid.cell_volume();
+  std::size_t next_content = 0;
+  for (std::size_t n = 0; n < ids.size(); ++n) {
+    NearCell& cell = cells[n];
+    cell.id = ids[n];
+    cell.cell = cell_from_id(grid, ids[n]);
+    cell.volume = next_.volume(cell.cell);
+    cell.mine = owned(cell.cell);
+    while (next_content < contents_.size() && contents_[next_content].cell < cell.id) ++next_content;
+    if (next_content < contents_.size() && contents_[next_content].cell == cell.id) {
+      cell.amount = contents_[next_content].amount;
+      cell.rewritten = true;
+    } else if (cell.mine && cell.volume > covered_fraction * full) {
+      Block const& block = *flow_.find(grid.block_of(cell.cell));
+      CellIndex const first = block.first();
+      cell.amount = block.load(cell.cell[0] - first[0], cell.cell[1] - first[1], cell.cell[2] - first[2]);
+      for (Real& x : cell.amount) x *= cell.volume;
+    }
+  }
+  if (comm_.size() > 1) {
+    struct Row {
+      GlobalId id;
+      State amount;
+      std::int64_t rewritten;
+    };
+    std::map<int, parallel::Bytes> to;
+    for (NearCell const& cell : cells) {
+      if (!cell.mine) continue;
+      std::vector<int> ranks;
+      CellBox const around =
+          grown(grid, {cell.cell, {cell.cell[0] + 1, cell.cell[1] + 1, cell.cell[2] + 1}}, mixing_halo);
+      CellIndex const low = into_domain(grid, around.low);
+      CellIndex const high = into_domain(grid, {around.high[0] - 1, around.high[1] - 1, around.high[2] - 1});
+      auto const b0 = grid.block_position(grid.block_of(low)), b1 = grid.block_position(grid.block_of(high));
+      for (Index bz = b0[2]; bz <= b1[2]; ++bz)
+        for (Index by = b0[1]; by <= b1[1]; ++by)
+          for (Index bx = b0[0]; bx <= b1[0]; ++bx) {
+            int const rank = flow_.owner(grid.block_id({bx, by, bz}));
+            if (rank != comm_.rank() && std::find(ranks.begin(), ranks.end(), rank) == ranks.end())
+              ranks.push_back(rank);
+          }
+      for (int const rank : ranks) parallel::put(to[rank], Row{cell.id, cell.amount, cell.rewritten});
+    }
+    std::vector<parallel::Message> out;
+    for (auto& [rank, data] : to) out.push_back({rank, std::move(data)});
+    for (parallel::Message const& message : comm_.deliver(std::move(out)))
+      for (std::span<std::byte const> in(message.data); !in.empty();) {
+        Row const row = parallel::take<Row>(in);
+        auto const at = std::lower_bound(cells.begin(), cells.end(), row.id,
+                                         [](NearCell const& c, GlobalId id) { return c.id < id; });
+        if (at != cells.end() && at->id == row.id) at->amount = row.amount, at->rewritten = row.rewritten != 0;
+      }
+  }
+
+  std::string const trouble = merge_small_cells(next_, config_.small_cell, cells);
+  if (!trouble.empty() && health_.good) health_ = {false, trouble};
+  kept_.clear();
+  for (NearCell const& cell : cells) {
+    if (!cell.mine || !(cell.rewritten || cell.grouped)) continue;
+    bool const covered = cell.volume <= covered_fraction * full;
+    State u = cell.mean;
+    if (!cell.grouped) {
+      if (covered) continue;  // nothing in it
+      u = cell.amount;
+      for (Real& x : u) x /= cell.volume;
+    }
+    if (covered) {
+      Content k{cell.id, u};
+      for (Real& x : k.amount) x *= cell.volume;
+      kept_.push_back(k);
+      continue;
+    }
+    Block& block = *flow_.find(grid.block_of(cell.cell));
+    CellIndex const first = block.first();
+    block.store(cell.cell[0] - first[0], cell.cell[1] - first[1], cell.cell[2] - first[2], u);
+  }
+}
+
+void CutCells::fill() {
+  for (CutCell const& cut : next_.geometry.cells) cut_cells_done_ += owned(cut.cell) ? 1 : 0;
+  // Mirror states hold the velocity of the wall: they are made anew when it changed, as a restart would make them.
+  std::int64_t changed = 0;
+  for (std::size_t t = 0; t < next_.triangles.size(); ++t)
+    if (moved_ || next_.triangles[t].velocity != record_.triangles[t].velocity) changed = 1;
+  comm_.sum(std::span(&changed, 1));
+  std::swap(record_, next_);
+  surface_.accept();
+  if (changed > 0)
+    sweeper_.rebuild(record_);
+  else
+    sweeper_.keep(record_);
+}
+
+Verdict CutCells::judge() const { return health_; }
+
+GlobalId CutCells::cut_cell_count() const {
+  return std::count_if(record_.geometry.cells.begin(), record_.geometry.cells.end(),
+                       [&](CutCell const& c) { return owned(c.cell); });
+}
+
+void CutCells::account(Ledger& ledger) {
+  for (Content const& k : kept_) {
+    ledger.add(Entry::mass, k.amount[0]);
+    ledger.add(Entry::momentum_x, Vec3{k.amount[1], k.amount[2], k.amount[3]});
+    ledger.add(Entry::energy, k.amount[4]);
+    ledger.add(Entry::fluid_energy, k.amount[4]);
+  }
+  ledger.add(Entry::in_mass, crossed_[0]);
+  for (std::size_t d = 0; d < 3; ++d)
+    ledger.add(static_cast<Entry>(static_cast<std::size_t>(Entry::in_momentum_x) + d), crossed_[1 + d]);
+  ledger.add(Entry::in_energy, crossed_[4]);
+  ledger.add(Entry::fluid_in_energy, crossed_[4]);
+  ledger.add(Entry::wall_work, wall_work_);
+  ledger.add(Entry::pressure_impulse, pressure_impulse_);
+  ledger.add(Entry::exchanged_energy, exchanged_energy_);
+  for (auto& sum : crossed_) sum = {};
+  wall_work_ = pressure_impulse_ = exchanged_energy_ = {};
+}
+
+void CutCells::digest(parallel::Digest& digest) const {
+  constexpr std::uint32_t covered_kind = 3;
+  for (Content const& k : kept_) digest.add(covered_kind, k.cell, k.amount);
+}
+
+}  // namespace brisance::coupling

@@ -1,0 +1,87 @@
+// The effect coupling.cut_cells: the conservative exchange between the flow and the moving solid, time coupling `lag`.
+// A file per verb: runs and wall_sweeper (sweeps), wall_load (pressure on the solid), balance (contents), mixing.
+#pragma once
+#include <optional>
+
+#include "core/model/plan.hpp"
+#include "coupling/coupling_config.hpp"
+#include "coupling/cut_cells/wall_surface.hpp"
+#include "coupling/cut_cells/wall_sweeper.hpp"
+#include "coupling/geometry/swept.hpp"
+
+namespace brisance::coupling {
+
+class CutCells : public Effect {
+ public:
+  CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid& solid, solid::Surface const& surface,
+           fluid::State const& ambient, parallel::Comm& comm);
+  void join(Plan& plan) override;
+
+  /// Collective. Geometry of the initial positions; to be called before the fluid is filled (charges are exact over
+  /// fluid volumes), then `start` once it is.
+  void cut_initial_geometry();
+  /// Collective. Merges the small cells of the initial fields, sets mirror states and the load of the initial state.
+  void start();
+
+  /// Fluid volume of a cell at the present time, m3; 0 in solid cells.
+  Real fluid_volume(CellIndex c) const { return record_.solid(c) ? 0 : record_.volume(c); }
+  GlobalId cut_cell_count() const;  ///< of this rank's blocks
+  /// Seconds spent in geometry (clipping, fractions, swept volumes) and cut cells handled, for the rates of the
+  /// summary.
+  std::int64_t cut_cells_done() const { return cut_cells_done_; }
+
+ private:
+  struct Content {
+    GlobalId cell;
+    fluid::State amount;  ///< integral over the cell
+  };
+  // stages
+  void predict(Real dt);
+  void new_geometry();
+  void load_solid();
+  void update_contents(Real dt);
+  void mix();
+  void fill();
+  // pieces of them
+  void wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces);
+  void transfers();
+  void boundary_account(Real dt);
+  void rebuild_record();
+  fluid::State content_before(CellIndex c) const;
+  Verdict judge() const;
+  void account(Ledger& ledger);
+  void digest(parallel::Digest& digest) const;
+  bool owned(CellIndex c) const;
+  Real half_riemann(fluid::State const& u, Vec3 const& wall_velocity, Vec3 const& area) const;
+
+  CutCellsConfig config_;
+  fluid::Flow& flow_;
+  solid::Solid& solid_;
+  parallel::Comm& comm_;
+  WallSurface surface_;
+  WallSweeper sweeper_;
+  WallRecord record_, next_;  ///< t^n, t^{n+1}
+  bool moved_ = true;         ///< any triangle of any rank moved in this step
+  bool same_ = false;         ///< next_ holds the geometry of record_
+  solid::Solid::Saved solid_before_;
+
+  std::vector<Content> kept_, kept_saved_;  ///< contents of covered cells, by id
+  std::vector<Content> contents_;           ///< of the cells the balance rewrites, by id
+  std::vector<Real> piece_factor_;          ///< chi of each piece of next_
+  std::vector<Swept> swept_;
+  struct Transfer {
+    GlobalId to, from;
+    Real volume;
+  };
+  std::vector<Transfer> transfers_;
+  std::vector<Content> moved_contents_;
+  StateGather swept_states_;
+  Verdict health_;
+
+  // increments for the ledger since the last audit
+  std::array<parallel::ExactSum, 5> crossed_;
+  parallel::ExactSum wall_work_, pressure_impulse_, exchanged_energy_;
+  std::int64_t cut_cells_done_ = 0;
+};
+
+}  // namespace brisance::coupling

@@ -1,0 +1,180 @@
+#include "coupling/cut_cells/mixing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "coupling/cut_cells/cell_geometry.hpp"
+
+namespace brisance::coupling {
+
+using fluid::State;
+
+namespace {
+
+/// Outside the admissible set beyond rounding.
+bool inadmissible(Real volume, State const& m) {
+  if (volume <= 0) return m != State{};
+  if (!(m[0] >= 0) || !std::isfinite(m[4])) return true;
+  if (m[0] == 0) return m[4] < 0;
+  Real const internal = m[4] - 0.5 * (m[1] * m[1] + m[2] * m[2] + m[3] * m[3]) / m[0];
+  return !(internal >= -1e-13 * std::abs(m[4]));
+}
+
+class Merger {
+ public:
+  Merger(WallRecord const& record, Real small_cell, std::vector<NearCell>& cells)
+      : record_(record), grid_(record.grid()), small_(small_cell * record.grid().cell_volume()), cells_(cells) {
+    parent_.resize(cells.size());
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
+
+  std::string run() {
+    for (Index i = 0; i < count(); ++i) {
+      NearCell const& c = cell(i);
+      bool const covered = c.volume <= covered_fraction * grid_.cell_volume();
+      if (covered ? c.amount == State{} : c.volume >= small_) continue;
+      Index const t = target(i);
+      if (t >= 0) unite(i, t);
+    }
+    for (int round = 0; round < 200; ++round) {
+      sum_groups();
+      std::vector<std::pair<Index, Index>> unions;
+      for (Index i = 0; i < count(); ++i)
+        if (root(i) == i && judged_[at(i)] && inadmissible(volume_[at(i)], amount_[at(i)])) {
+          Index const partner = growth(i);
+          if (partner < 0) return place(i) + ": no neighbour makes its group of small cells admissible";
+          unions.emplace_back(i, partner);
+        }
+      if (unions.empty()) return finish();
+      for (auto const& [a, b] : unions) unite(a, b);
+    }
+    return "groups of small cells do not become admissible";
+  }
+
+ private:
+  static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+  Index count() const { return static_cast<Index>(cells_.size()); }
+  NearCell& cell(Index i) { return cells_[at(i)]; }
+  Index find(CellIndex c) const {
+    if (!grid_.inside(c)) return -1;
+    GlobalId const id = grid_.cell_id(c);
+    auto const f =
+        std::lower_bound(cells_.begin(), cells_.end(), id, [](NearCell const& n, GlobalId x) { return n.id < x; });
+    return f != cells_.end() && f->id == id ? static_cast<Index>(f - cells_.begin()) : -1;
+  }
+  Index root(Index i) {
+    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
+    return i;
+  }
+  void unite(Index a, Index b) {
+    a = root(a), b = root(b);
+    if (a != b) parent_[at(std::max(a, b))] = std::min(a, b);  // the root is the lowest id: no order of visit enters
+  }
+
+  Index target(Index i) {
+    NearCell const& c = cell(i);
+    Index best = -1;
+    Real best_score = 0;
+    bool open = false;
+    for (int d = 0; d < grid_.dimension; ++d)
+      for (int side = 0; side < 2; ++side) {
+        CellIndex n = c.cell;
+        n[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
+        Real const a = record_.aperture(c.cell, d, side) / grid_.face_area(d);
+        Index const j = find(n);
+        if (j < 0 || !(a > 1e-12)) continue;
+        open = true;
+        if (!(cell(j).volume > c.volume)) continue;
+        consider(j, a + 0.5 * cell(j).volume / grid_.cell_volume(), best, best_score);
+      }
+    if (best >= 0 && open) return best;
+    for_neighbourhood(grid_, c.cell, 1, [&](CellIndex n) {
+      Index const j = find(n);
+      if (j >= 0 && j != i && cell(j).volume > c.volume) consider(j, cell(j).volume, best, best_score);
+    });
+    return best;
+  }
+  /// Cells are sorted by id and visited in any order: a tie goes to the lower one.
+  static void consider(Index j, Real score, Index& best, Real& best_score) {
+    if (best < 0 || score > best_score || (score == best_score && j < best)) best = j, best_score = score;
+  }
+
+  void sum_groups() {
+    volume_.assign(cells_.size(), 0);
+    amount_.assign(cells_.size(), State{});
+    judged_.assign(cells_.size(), false);
+    for (Index i = 0; i < count(); ++i) {
+      Index const r = root(i);
+      volume_[at(r)] += cell(i).volume;
+      for (std::size_t q = 0; q < 5; ++q) amount_[at(r)][q] += cell(i).amount[q];
+      if (cell(i).rewritten || r != i) judged_[at(r)] = true;
+    }
+  }
+
+  Index growth(Index group) {
+    Index best = -1;
+    Real best_score = 0;
+    for (Index i = group; i < count(); ++i) {
+      if (root(i) != group) continue;
+      for (int d = 0; d < grid_.dimension; ++d)
+        for (int side = 0; side < 2; ++side) {
+          CellIndex n = cell(i).cell;
+          n[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
+          Index const j = find(n);
+          if (j < 0 || root(j) == group || cell(j).volume <= 0) continue;
+          Index const other = root(j);
+          bool const positive = !inadmissible(volume_[at(other)], amount_[at(other)]);
+          Real const score = cell(j).volume / grid_.cell_volume() +
+                             2 * record_.aperture(cell(i).cell, d, side) / grid_.face_area(d) + (positive ? 1 : 0);
+          consider(j, score, best, best_score);
+        }
+    }
+    return best;
+  }
+
+  std::string place(Index i) {
+    CellIndex const c = cell(i).cell;
+    return "cell (" + std::to_string(c[0]) + ", " + std::to_string(c[1]) + ", " + std::to_string(c[2]) + ")";
+  }
+
+  std::string finish() {
+    std::vector<CellIndex> low(cells_.size()), high(cells_.size());
+    std::vector<Index> members(cells_.size(), 0);
+    for (Index i = 0; i < count(); ++i) {
+      std::size_t const r = at(root(i));
+      for (std::size_t d = 0; d < 3; ++d) {
+        low[r][d] = members[r] == 0 ? cell(i).cell[d] : std::min(low[r][d], cell(i).cell[d]);
+        high[r][d] = members[r] == 0 ? cell(i).cell[d] : std::max(high[r][d], cell(i).cell[d]);
+      }
+      ++members[r];
+    }
+    for (Index i = 0; i < count(); ++i) {
+      std::size_t const r = at(root(i));
+      if (members[r] < 2) continue;
+      for (std::size_t d = 0; d < 3; ++d)
+        if (high[r][d] - low[r][d] >= largest_group && cell(i).mine)
+          return place(i) + ": a group of small cells spans more than " + std::to_string(largest_group) + " cells";
+      cell(i).grouped = true;
+      for (std::size_t q = 0; q < 5; ++q) cell(i).mean[q] = amount_[r][q] / volume_[r];
+    }
+    return {};
+  }
+
+  WallRecord const& record_;
+  fluid::Grid const& grid_;
+  Real small_;
+  std::vector<NearCell>& cells_;
+  std::vector<Index> parent_;
+  std::vector<Real> volume_;
+  std::vector<State> amount_;
+  std::vector<bool> judged_;
+};
+
+}  // namespace
+
+std::string merge_small_cells(WallRecord const& record, Real small_cell, std::vector<NearCell>& cells) {
+  return Merger(record, small_cell, cells).run();
+}
+
+}  // namespace brisance::coupling

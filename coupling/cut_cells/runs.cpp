@@ -1,0 +1,156 @@
+// Where the runs of a block begin and end, and which states stand beyond their ends.
+#include <algorithm>
+
+#include "coupling/cut_cells/cell_geometry.hpp"
+#include "coupling/cut_cells/wall_sweeper.hpp"
+
+namespace brisance::coupling {
+
+using fluid::Block;
+
+MirrorCell WallSweeper::mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted) const {
+  fluid::Grid const& grid = flow_.grid();
+  Projection const p = record_->project(c, direction, side);
+  if (!p.found) return {};
+  Vec3 const image = 2.0 * p.point - grid.centre(c);
+  Real const h = smallest_spacing(grid);
+  auto const acceptable = [&](CellIndex n) {
+    if (!grid.inside(n) || record_->solid(n)) return false;
+    return direction < 0 || dot(grid.centre(n) - p.point, p.normal) > -0.5 * h;
+  };
+  CellIndex chosen = into_domain(grid, cell_of(grid, image));
+  if (!acceptable(chosen)) {
+    CellIndex const middle = chosen;
+    Real best = -1;
+    for_neighbourhood(grid, middle, 2, [&](CellIndex n) {
+      if (!acceptable(n)) return;
+      Real const r2 = norm2(grid.centre(n) - image);
+      if (best < 0 || r2 < best || (r2 == best && grid.cell_id(n) < grid.cell_id(chosen))) best = r2, chosen = n;
+    });
+    if (best < 0) return {};
+  }
+  GlobalId const id = grid.cell_id(chosen);
+  wanted.push_back(id);
+  // The place in `wanted` for now; becomes the slot once the list is sorted.
+  return {static_cast<Index>(wanted.size()) - 1, p.normal, dot(p.velocity, p.normal)};
+}
+
+void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction, std::vector<GlobalId>& wanted) {
+  auto const d = static_cast<std::size_t>(direction);
+  std::size_t const t0 = d == 0 ? 1 : 0, t1 = d == 2 ? 1 : 2;
+  auto& runs = wall.runs[d];
+  auto& ends = wall.ends[d];
+  runs.clear();
+  ends.clear();
+  Index const n = block.size()[d], ghost = block.ghost()[d];
+  fluid::Grid const& grid = flow_.grid();
+  auto const wall_end = [&](CellIndex last, int outwards) {
+    WallBlock::RunEnd end;
+    for (std::size_t m = 0; m < 3; ++m) {
+      CellIndex c = last;
+      c[d] += outwards * (static_cast<Index>(m) + 1);
+      end.mirror[m] = mirror(c, direction, -outwards, wanted);
+      end.general[m] = end.mirror[m].slot < 0 && m < 2 && record_->solid(c);
+    }
+    ends.push_back(end);
+    return static_cast<Index>(ends.size()) - 1;
+  };
+  for (Index b = 0; b < block.size()[t1]; ++b)
+    for (Index a = 0; a < block.size()[t0]; ++a) {
+      CellIndex c = block.first();
+      c[t0] += a;
+      c[t1] += b;
+      auto const global = [&](Index i) {
+        CellIndex g = c;
+        g[d] += i;
+        return g;
+      };
+      // Beyond a side of the domain stand its ghosts: they continue the run that touches it.
+      auto const is_solid = [&](Index i) {
+        CellIndex g = global(i);
+        if (g[d] < 0 || g[d] >= grid.cells[d]) g = into_domain(grid, g);
+        return record_->solid(g);
+      };
+      Index i = -ghost;
+      while (i < n + ghost) {
+        while (i < n + ghost && is_solid(i)) ++i;
+        if (i == n + ghost) break;
+        WallBlock::Run run{i, i, {a, b}};
+        while (i < n + ghost && !is_solid(i)) ++i;
+        run.end = i;
+        if (run.end < 0 || run.begin > n) continue;
+        if (run.begin > -ghost) run.low = wall_end(global(run.begin), -1);
+        if (run.end < n + ghost) run.high = wall_end(global(run.end - 1), +1);
+        runs.push_back(run);
+      }
+    }
+  auto const length = [&](WallBlock::Run const& r) { return std::min(r.end, n) - std::max(r.begin, 0); };
+  std::stable_sort(runs.begin(), runs.end(), [&](auto const& x, auto const& y) { return length(x) > length(y); });
+}
+
+void WallSweeper::find_solid(Block const& block, WallBlock& wall, std::vector<GlobalId>& wanted) {
+  wall.solid.clear();
+  fluid::Grid const& grid = flow_.grid();
+  CellIndex const first = block.first();
+  CellBox const own = box_of(block);
+  std::vector<GlobalId> near;
+  for (CutCell const& cut : record_->geometry.cells)
+    for_neighbourhood(grid, cut.cell, 2, [&](CellIndex c) {
+      if (own.holds(c) && record_->solid(c)) near.push_back(grid.cell_id(c));
+    });
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  for (GlobalId const id : near) {
+    CellIndex const c = cell_from_id(grid, id);
+    MirrorCell const m = mirror(c, -1, 0, wanted);
+    wall.solid.emplace_back(CellIndex{c[0] - first[0], c[1] - first[1], c[2] - first[2]}, m);
+  }
+}
+
+void WallSweeper::rebuild(WallRecord const& record) {
+  record_ = &record;
+  fluid::Grid const& grid = flow_.grid();
+  std::vector<GlobalId> wanted;
+  for (Block& block : flow_.blocks()) {
+    CellBox const own = box_of(block);
+    // Two cells beyond the ghosts: what is cut after the next step has its fluxes kept too.
+    if (!record.touches(grown(grid, own, block.ghost()[0] + 2))) {
+      blocks_.erase(block.id());
+      continue;
+    }
+    WallBlock& wall = blocks_[block.id()];
+    wall.size = block.size();
+    for (int d = 0; d < grid.dimension; ++d) find_runs(block, wall, d, wanted);
+    find_solid(block, wall, wanted);
+  }
+  std::vector<GlobalId> list = wanted;
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  images_.plan(comm_, flow_, std::move(list));
+  auto const to_slot = [&](MirrorCell& m) {
+    if (m.slot >= 0) m.slot = images_.slot(wanted[static_cast<std::size_t>(m.slot)]);
+  };
+  for (auto& [id, wall] : blocks_) {
+    for (auto& ends : wall.ends)
+      for (WallBlock::RunEnd& end : ends)
+        for (MirrorCell& m : end.mirror) to_slot(m);
+    for (auto& [cell, m] : wall.solid) to_slot(m);
+  }
+  refresh_mirrors();
+}
+
+void WallSweeper::keep(WallRecord const& record) {
+  record_ = &record;
+  refresh_mirrors();
+}
+
+void WallSweeper::refresh_mirrors() {
+  images_.refresh(comm_, [](Block const& b, Index i, Index j, Index k) { return b.load(i, j, k); });
+  for (auto& [id, wall] : blocks_) {
+    Block& block = *flow_.find(id);
+    for (auto const& [c, m] : wall.solid)
+      block.store(c[0], c[1], c[2], m.slot >= 0 ? reflect(images_[m.slot], m) : ambient);
+  }
+}
+
+}  // namespace brisance::coupling

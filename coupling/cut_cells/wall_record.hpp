@@ -1,0 +1,82 @@
+// The solid boundary at one time level as the fluid of this rank sees it: triangles, cut cells, and what every cell is.
+#pragma once
+#include <vector>
+
+#include "coupling/cut_cells/cell_map.hpp"
+#include "coupling/geometry/cut_geometry.hpp"
+#include "fluid/grid/grid.hpp"
+
+namespace brisance::coupling {
+
+/// Fluid fraction below which a cell counts as solid (theory/coupling.md 1.9).
+constexpr Real covered_fraction = 1e-9;
+
+/// Point of the wall nearest to a cell centre: the base of a mirror state.
+struct Projection {
+  bool found = false;
+  Vec3 point, normal;  ///< normal: from the cell centre to the point
+  Vec3 velocity;       ///< of the wall at the point
+};
+
+class WallRecord {
+ public:
+  void set_grid(fluid::Grid const& grid);
+  /// Cells this rank may ask about: boxes of its blocks and a margin. Fixed until the partition changes.
+  void set_region(std::vector<CellBox> boxes) { region_ = std::move(boxes); }
+
+  /// Triangles of the record, sorted by id; `x_new` is the position at the time of the record.
+  std::vector<SurfaceTriangle> triangles;
+  Geometry geometry;
+
+  /// Cuts the cells by `triangles`. Errors: scene or numerical error when the surface is not closed.
+  void rebuild();
+
+  bool solid(CellIndex c) const {
+    Index const i = map_.at(c);
+    return i == uncut_solid || (i >= 0 && cut(i).volume <= covered_fraction * cell_volume_);
+  }
+  /// Index of the cut cell, -1 when c holds no piece.
+  Index cut_index(CellIndex c) const {
+    Index const i = map_.at(c);
+    return i >= 0 ? i : -1;
+  }
+  CutCell const& cut(Index i) const { return geometry.cells[static_cast<std::size_t>(i)]; }
+  /// Fluid volume, m3.
+  Real volume(CellIndex c) const {
+    Index const i = map_.at(c);
+    return i == uncut_fluid ? cell_volume_ : i == uncut_solid ? 0 : cut(i).volume;
+  }
+  /// Fluid area of the low (0) or high (1) face in direction d, m2.
+  Real aperture(CellIndex c, int d, int side) const {
+    Index const i = map_.at(c);
+    if (i >= 0) return cut(i).aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)];
+    return i == uncut_fluid ? face_area_[d] : 0;
+  }
+  /// True when the range holds a cell that is not plain fluid.
+  bool touches(CellBox const& range) const;
+
+  /// Nearest wall point to the centre of `c`. With `direction` >= 0 only pieces that face a run lying on the side
+  /// `side`
+  /// (-1 or +1) of the cell along that direction, and have the centre behind them. Source: theory/coupling.md 1.9.
+  Projection project(CellIndex c, int direction, int side) const;
+
+  fluid::Grid const& grid() const { return *grid_; }
+  Lattice const& lattice() const { return lattice_; }
+  /// Velocity of the wall at a point given by barycentric coordinates of a triangle, m/s.
+  Vec3 wall_velocity(Index triangle, std::array<Real, 3> const& bary) const {
+    SurfaceTriangle const& t = triangles[static_cast<std::size_t>(triangle)];
+    return bary[0] * t.velocity[0] + bary[1] * t.velocity[1] + bary[2] * t.velocity[2];
+  }
+  std::size_t bytes() const { return map_.bytes() + geometry.pieces.capacity() * sizeof(Piece); }
+
+ private:
+  static constexpr Index uncut_fluid = -1, uncut_solid = -2;
+  fluid::Grid const* grid_ = nullptr;
+  Lattice lattice_;
+  Real cell_volume_ = 0;
+  Vec3 face_area_;
+  std::vector<CellBox> region_;
+  CellMap<Index> map_;
+};
+
+}  // namespace brisance::coupling

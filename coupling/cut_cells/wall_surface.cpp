@@ -1,0 +1,262 @@
+#include "coupling/cut_cells/wall_surface.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "coupling/cut_cells/cell_geometry.hpp"
+
+namespace brisance::coupling {
+
+namespace {
+
+/// A triangle lies in one of the three beams of a box when it overlaps the box in all directions but at most one.
+bool in_beam(int dimension, CellBox const& box, CellBox const& triangle) {
+  int apart = 0;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d)
+    apart += triangle.high[d] <= box.low[d] || triangle.low[d] >= box.high[d];
+  return apart <= 1;
+}
+
+}  // namespace
+
+WallSurface::WallSurface(solid::Solid& solid, solid::Surface const& surface, fluid::Flow& flow, parallel::Comm& comm,
+                         Index margin)
+    : solid_(solid), surface_(surface), flow_(flow), comm_(comm), margin_(margin) {
+  std::vector<GlobalId> needed;
+  for (std::size_t t = 0; t < surface.elements().size(); ++t) {
+    solid::Element const& triangle = surface.elements()[t];
+    if (solid.owner(triangle.particle) != comm.rank()) continue;
+    triangles_.push_back(t);
+    for (int a = 0; a < flow.grid().dimension; ++a) needed.push_back(triangle.vertex[static_cast<std::size_t>(a)]);
+  }
+  for (Index v = 0; v < surface.vertices(); ++v)
+    for (solid::Corner const& c : surface.corners(v))
+      if (solid.owner(c.particle) == comm.rank()) needed.push_back(v);
+  std::sort(needed.begin(), needed.end());
+  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+  for (GlobalId const id : needed) {
+    Vertex vertex{id, {}, {}, {}, static_cast<Index>(member_.size()), 0};
+    for (solid::Corner const& c : surface.corners(static_cast<Index>(id))) member_.push_back(solid.local(c.particle));
+    vertex.last_member = static_cast<Index>(member_.size());
+    vertices_.push_back(vertex);
+  }
+  arm_.resize(member_.size());
+
+  fluid::Grid const& grid = flow.grid();
+  std::map<int, CellBox> boxes;
+  for (Index b = 0; b < grid.block_count(); ++b) {
+    auto const p = grid.block_position(b);
+    CellBox box;
+    for (std::size_t d = 0; d < 3; ++d) {
+      box.low[d] = grid.cuts[d][static_cast<std::size_t>(p[d])];
+      box.high[d] = grid.cuts[d][static_cast<std::size_t>(p[d]) + 1];
+    }
+    auto const [at, first] = boxes.try_emplace(flow.owner(b), box);
+    for (std::size_t d = 0; d < 3 && !first; ++d) {
+      at->second.low[d] = std::min(at->second.low[d], box.low[d]);
+      at->second.high[d] = std::max(at->second.high[d], box.high[d]);
+    }
+  }
+  for (auto const& [rank, box] : boxes) reach_.push_back({rank, grown(grid, box, margin)});
+}
+
+Index WallSurface::local(GlobalId vertex) const {
+  auto const at = std::lower_bound(vertices_.begin(), vertices_.end(), vertex,
+                                   [](Vertex const& v, GlobalId id) { return v.id < id; });
+  return at != vertices_.end() && at->id == vertex ? static_cast<Index>(at - vertices_.begin()) : -1;
+}
+
+void WallSurface::start() {
+  predict();
+  accept();
+}
+
+void WallSurface::predict() {
+  for (Vertex& v : vertices_) {
+    auto const vertex = static_cast<Index>(v.id);
+    v.position = surface_.position(vertex, solid_);
+    surface_.arms(vertex, solid_, arms(v));
+  }
+  update_velocities();
+}
+
+void WallSurface::update_velocities() {
+  for (Vertex& v : vertices_) v.velocity = surface_.velocity(static_cast<Index>(v.id), solid_, arms(v));
+}
+
+void WallSurface::accept() {
+  for (Vertex& v : vertices_) v.record = v.position;
+}
+
+bool WallSurface::moved() const {
+  return std::any_of(vertices_.begin(), vertices_.end(), [](Vertex const& v) { return !(v.record == v.position); });
+}
+
+Real WallSurface::fastest_vertex(int direction) const {
+  Real fastest = 0;
+  for (Vertex const& v : vertices_) fastest = max(fastest, std::abs(v.velocity[direction]));
+  return fastest;
+}
+
+void WallSurface::send_triangles(std::vector<SurfaceTriangle>& received) {
+  fluid::Grid const& grid = flow_.grid();
+  auto const corners = static_cast<std::size_t>(grid.dimension);
+  std::vector<SurfaceTriangle> triangles;
+  triangles.reserve(triangles_.size());
+  std::map<int, std::vector<std::size_t>> targets;
+  for (std::size_t place = 0; place < triangles_.size(); ++place) {
+    solid::Element const& t = surface_.elements()[triangles_[place]];
+    SurfaceTriangle triangle;
+    triangle.id = t.id;
+    for (std::size_t a = 0; a < corners; ++a) triangle.vertex[a] = t.vertex[a];
+    constexpr Index far = std::numeric_limits<Index>::max() / 2;
+    CellBox box{{far, far, far}, {-far, -far, -far}};
+    for (std::size_t a = 0; a < corners; ++a) {
+      Vertex const& v = vertices_[static_cast<std::size_t>(local(t.vertex[a]))];
+      triangle.x_old[a] = v.record;
+      triangle.x_new[a] = v.position;
+      triangle.velocity[a] = v.velocity;
+      for (Vec3 const& x : {v.record, v.position}) {
+        CellIndex const c = cell_of(grid, x);
+        for (std::size_t d = 0; d < 3; ++d) {
+          box.low[d] = std::min(box.low[d], c[d]);
+          box.high[d] = std::max(box.high[d], c[d] + 1);
+        }
+      }
+    }
+    box = grown(grid, box, 1);
+    for (Reach const& r : reach_)
+      if (in_beam(grid.dimension, r.box, box)) targets[r.rank].push_back(place);
+    triangles.push_back(triangle);
+  }
+  sent_.assign(targets.begin(), targets.end());
+  std::vector<parallel::Message> out;
+  for (auto const& [rank, places] : sent_) {
+    parallel::Message message{rank, {}};
+    message.data.reserve(places.size() * sizeof(SurfaceTriangle));
+    for (std::size_t const place : places) parallel::put(message.data, triangles[place]);
+    out.push_back(std::move(message));
+  }
+  received.clear();
+  for (parallel::Message const& message : comm_.deliver(std::move(out)))
+    for (std::span<std::byte const> in(message.data); !in.empty();)
+      received.push_back(parallel::take<SurfaceTriangle>(in));
+  std::sort(received.begin(), received.end(), [](auto const& a, auto const& b) { return a.id < b.id; });
+}
+
+void WallSurface::send_velocities(std::vector<SurfaceTriangle>& received) {
+  struct Record {
+    GlobalId triangle;
+    std::array<Vec3, 3> velocity;
+  };
+  auto const corners = static_cast<std::size_t>(flow_.grid().dimension);
+  std::vector<parallel::Message> out;
+  for (auto const& [rank, places] : sent_) {
+    parallel::Message message{rank, {}};
+    for (std::size_t const place : places) {
+      solid::Element const& t = surface_.elements()[triangles_[place]];
+      Record record{t.id, {}};
+      for (std::size_t a = 0; a < corners; ++a)
+        record.velocity[a] = vertices_[static_cast<std::size_t>(local(t.vertex[a]))].velocity;
+      parallel::put(message.data, record);
+    }
+    out.push_back(std::move(message));
+  }
+  for (parallel::Message const& message : comm_.deliver(std::move(out)))
+    for (std::span<std::byte const> in(message.data); !in.empty();) {
+      Record const record = parallel::take<Record>(in);
+      std::lower_bound(received.begin(), received.end(), record.triangle, [](SurfaceTriangle const& t, GlobalId id) {
+        return t.id < id;
+      })->velocity = record.velocity;
+    }
+}
+
+void WallSurface::apply(std::vector<CellForce> const& forces) {
+  auto const corners = static_cast<std::size_t>(flow_.grid().dimension);
+  // To the owners of the triangles, summed there in the order of cells.
+  std::map<int, parallel::Bytes> to_owner;
+  for (CellForce const& f : forces)
+    parallel::put(to_owner[solid_.owner(surface_.elements()[static_cast<std::size_t>(f.triangle)].particle)], f);
+  std::vector<parallel::Message> out;
+  for (auto& [rank, data] : to_owner) out.push_back({rank, std::move(data)});
+  std::vector<CellForce> mine;
+  for (parallel::Message const& message : comm_.deliver(std::move(out)))
+    for (std::span<std::byte const> in(message.data); !in.empty();) mine.push_back(parallel::take<CellForce>(in));
+  std::sort(mine.begin(), mine.end(), [](CellForce const& a, CellForce const& b) {
+    return a.triangle != b.triangle ? a.triangle < b.triangle : a.cell < b.cell;
+  });
+
+  // One force per triangle and corner, to every rank that owns a particle of the vertex.
+  struct CornerForce {
+    GlobalId vertex, triangle;
+    Vec3 force;
+  };
+  std::map<int, parallel::Bytes> to_members;
+  for (std::size_t f = 0; f < mine.size();) {
+    GlobalId const id = mine[f].triangle;
+    std::array<Vec3, 3> sum{};
+    for (; f < mine.size() && mine[f].triangle == id; ++f)
+      for (std::size_t a = 0; a < corners; ++a) sum[a] += mine[f].force[a];
+    solid::Element const& t = surface_.elements()[static_cast<std::size_t>(id)];
+    for (std::size_t a = 0; a < corners; ++a) {
+      std::vector<int> ranks;
+      for (solid::Corner const& m : surface_.corners(t.vertex[a])) {
+        int const rank = solid_.owner(m.particle);
+        if (std::find(ranks.begin(), ranks.end(), rank) == ranks.end()) ranks.push_back(rank);
+      }
+      for (int const rank : ranks) parallel::put(to_members[rank], CornerForce{t.vertex[a], id, sum[a]});
+    }
+  }
+  out.clear();
+  for (auto& [rank, data] : to_members) out.push_back({rank, std::move(data)});
+  std::vector<CornerForce> loads;
+  for (parallel::Message const& message : comm_.deliver(std::move(out)))
+    for (std::span<std::byte const> in(message.data); !in.empty();) loads.push_back(parallel::take<CornerForce>(in));
+  std::sort(loads.begin(), loads.end(), [](CornerForce const& a, CornerForce const& b) {
+    return a.vertex != b.vertex ? a.vertex < b.vertex : a.triangle < b.triangle;
+  });
+
+  std::span<solid::Wrench> const load = solid_.load();
+  std::fill(load.begin(), load.end(), solid::Wrench{});
+  for (std::size_t l = 0; l < loads.size();) {
+    GlobalId const id = loads[l].vertex;
+    Vec3 force;
+    for (; l < loads.size() && loads[l].vertex == id; ++l) force += loads[l].force;
+    Vertex const& v = vertices_[static_cast<std::size_t>(local(id))];
+    Vec3 const share = force / static_cast<Real>(v.last_member - v.first_member);
+    for (Index m = v.first_member; m < v.last_member; ++m) {
+      auto const at = static_cast<std::size_t>(m);
+      if (member_[at] >= solid_.owned()) continue;
+      solid::Wrench& w = load[static_cast<std::size_t>(member_[at])];
+      w.force += share;
+      w.torque += cross(arm_[at], share);
+    }
+  }
+}
+
+void WallSurface::write(parallel::ArchiveWriter& file) const {
+  // A vertex is written by the owner of its first particle.
+  std::vector<std::int64_t> ids;
+  std::vector<double> rows;
+  for (Vertex const& v : vertices_) {
+    if (solid_.owner(surface_.corners(static_cast<Index>(v.id)).front().particle) != comm_.rank()) continue;
+    ids.push_back(v.id);
+    for (Vec3 const& x : {v.record, v.velocity}) rows.insert(rows.end(), {x.x, x.y, x.z});
+  }
+  file.sparse("coupling/vertices", 6, ids, rows);
+}
+
+void WallSurface::read(parallel::ArchiveReader& file) {
+  parallel::ArchiveReader::Sparse const stored = file.sparse("coupling/vertices", 6);
+  for (std::size_t s = 0; s < stored.ids.size(); ++s) {
+    Index const at = local(stored.ids[s]);
+    if (at < 0) continue;
+    double const* row = stored.data.data() + 6 * s;
+    Vertex& v = vertices_[static_cast<std::size_t>(at)];
+    v.record = v.position = {row[0], row[1], row[2]};
+    v.velocity = {row[3], row[4], row[5]};
+  }
+}
+
+}  // namespace brisance::coupling

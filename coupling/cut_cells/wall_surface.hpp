@@ -1,0 +1,82 @@
+// The deformed boundary between the ranks that own the particles and the ranks whose blocks it cuts: triangles go out,
+// vertex forces come back, vertex velocities follow (theory/coupling.md 1.6, 8.2).
+#pragma once
+#include <vector>
+
+#include "core/solid/solid.hpp"
+#include "core/solid/surface.hpp"
+#include "coupling/cut_cells/cell_map.hpp"
+#include "coupling/geometry/surface.hpp"
+#include "fluid/flow.hpp"
+#include "parallel/archive.hpp"
+
+namespace brisance::coupling {
+
+/// Force of the fluid on the three vertices of a triangle from the pieces of it in one cell, N.
+struct CellForce {
+  GlobalId triangle = 0, cell = 0;
+  std::array<Vec3, 3> force{};
+};
+
+class WallSurface {
+ public:
+  /// `margin`: cells around a block within which its rank needs the triangles.
+  WallSurface(solid::Solid& solid, solid::Surface const& surface, fluid::Flow& flow, parallel::Comm& comm,
+              Index margin);
+
+  /// Vertices at the present positions of the particles become the record (start of a run).
+  void start();
+  /// Vertices of the predicted particles: new positions, frozen arms, predicted velocities. Expects: poses and
+  /// half-step velocities of ghosts are current.
+  void predict();
+  /// Vertex velocities of the half step under the frozen arms. Expects: half-step velocities of ghosts are current.
+  void update_velocities();
+  /// The predicted positions become the record.
+  void accept();
+
+  /// Collective. All triangles within reach of this rank's blocks, sorted by id.
+  void send_triangles(std::vector<SurfaceTriangle>& received);
+  /// Collective. The present vertex velocities, into the same triangles.
+  void send_velocities(std::vector<SurfaceTriangle>& received);
+  /// Collective. Conjugate load: `forces` of this rank's cells become forces and torques of particles.
+  void apply(std::vector<CellForce> const& forces);
+
+  Real fastest_vertex(int direction) const;  ///< m/s, over local vertices
+  bool moved() const;                        ///< any vertex whose predicted position differs from the record
+
+  /// Rows by vertex id of the vertices this rank keeps: record position, velocity (6 columns).
+  void write(parallel::ArchiveWriter& file) const;
+  void read(parallel::ArchiveReader& file);
+  void save() { saved_ = vertices_; }
+  void restore() { vertices_ = saved_; }
+
+ private:
+  struct Vertex {
+    GlobalId id;
+    Vec3 record, position, velocity;
+    Index first_member, last_member;
+  };
+  std::span<Vec3> arms(Vertex const& v) {
+    return std::span(arm_).subspan(static_cast<std::size_t>(v.first_member),
+                                   static_cast<std::size_t>(v.last_member - v.first_member));
+  }
+  Index local(GlobalId vertex) const;
+
+  solid::Solid& solid_;
+  solid::Surface const& surface_;
+  fluid::Flow& flow_;
+  parallel::Comm& comm_;
+  Index margin_;
+  std::vector<Vertex> vertices_, saved_;  ///< sorted by id
+  std::vector<Index> member_;             ///< local particles of the vertices
+  std::vector<Vec3> arm_;                 ///< beside member_
+  std::vector<std::size_t> triangles_;    ///< elements of the surface that belong to owned particles
+  struct Reach {
+    int rank;
+    CellBox box;
+  };
+  std::vector<Reach> reach_;                                    ///< ranks with blocks and the box that holds these
+  std::vector<std::pair<int, std::vector<std::size_t>>> sent_;  ///< rank, triangles (places in triangles_) last sent
+};
+
+}  // namespace brisance::coupling

@@ -1,0 +1,206 @@
+#include "coupling/cut_cells/wall_sweeper.hpp"
+
+#include <algorithm>
+
+#include "coupling/cut_cells/cell_geometry.hpp"
+#include "fluid/flux/low_order.hpp"
+#include "fluid/flux/sweep.hpp"
+
+namespace brisance::coupling {
+
+using fluid::Block;
+using fluid::State;
+
+State reflect(State u, MirrorCell const& mirror) {
+  if (!(u[0] > 0)) return u;
+  Vec3 const momentum{u[1], u[2], u[3]};
+  Vec3 const jump = (2 * (dot(momentum, mirror.normal) - u[0] * mirror.wall_speed)) * mirror.normal;
+  Vec3 const reflected = momentum - jump;
+  u[4] += 0.5 * (norm2(reflected) - norm2(momentum)) / u[0];
+  u[1] = reflected.x, u[2] = reflected.y, u[3] = reflected.z;
+  return u;
+}
+
+namespace {
+
+/// Highest order whose window stays within the run; 5, or the scene's if lower, when none does.
+std::uint8_t order_within(int scene_order, Index room) {
+  int const fits = room >= 6 ? 11 : room >= 5 ? 9 : room >= 4 ? 7 : 5;
+  return static_cast<std::uint8_t>(std::min(scene_order, fits));
+}
+
+/// Components of a state in sweep coordinates: the momentum normal to the faces comes first.
+constexpr std::array<std::array<std::size_t, 5>, 3> sweep_component{
+    {{0, 1, 2, 3, 4}, {0, 2, 1, 3, 4}, {0, 3, 2, 1, 4}}};
+
+}  // namespace
+
+void WallSweeper::begin_step() {
+  for (auto& [id, wall] : blocks_) {
+    Block const& block = *flow_.find(id);
+    std::size_t const cells = static_cast<std::size_t>(wall.size[0]) * static_cast<std::size_t>(wall.size[1]) *
+                              static_cast<std::size_t>(wall.size[2]);
+    wall.before.resize(cells);
+    for (Index k = 0; k < wall.size[2]; ++k)
+      for (Index j = 0; j < wall.size[1]; ++j)
+        for (Index i = 0; i < wall.size[0]; ++i) wall.before[wall.cell(i, j, k)] = block.load(i, j, k);
+    for (int d = 0; d < flow_.grid().dimension; ++d) {
+      auto const dir = static_cast<std::size_t>(d);
+      auto const n = static_cast<std::size_t>(wall.size[dir]);
+      wall.flux[dir].resize(cells / n * (n + 1));
+      wall.pressure[dir].resize(cells);
+    }
+  }
+}
+
+void WallSweeper::prepare(int, Real) { refresh_mirrors(); }
+
+fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
+  auto const d = static_cast<std::size_t>(direction);
+  std::size_t const t0 = d == 0 ? 1 : 0, t1 = d == 2 ? 1 : 2;
+  WallBlock& wall = blocks_.at(block.id());
+  int const order = flow_.order();
+  Real const sigma = dt / flow_.grid().spacing[direction];
+  auto const width = static_cast<std::size_t>(fluid::lanes());
+  Index const n = block.size()[d], ghost = fluid::ghost_depth(order);
+  auto const cells = static_cast<std::size_t>(n + 2 * ghost);
+  scratch_u_.resize(cells * 5 * width);
+  scratch_result_.resize(static_cast<std::size_t>(n) * 5 * width);
+  scratch_flux_.resize(static_cast<std::size_t>(n + 1) * 5 * width);
+  scratch_pressure_.resize(static_cast<std::size_t>(n) * width);
+  scratch_order_.resize(static_cast<std::size_t>(n + 1) * width);
+  auto const& component = sweep_component[d];
+
+  fluid::SweepReport total;
+  flux_between_solids(block, wall, direction, sigma);
+  for (auto const& [c, m] : wall.solid)
+    wall.pressure[d][wall.cell(c[0], c[1], c[2])] = flow_.gas().pressure(block.load(c[0], c[1], c[2]));
+
+  auto const& runs = wall.runs[d];
+  auto const& ends = wall.ends[d];
+  for (std::size_t base = 0; base < runs.size(); base += width) {
+    std::size_t const used = std::min(width, runs.size() - base);
+    Index longest = 0;
+    for (std::size_t lane = 0; lane < used; ++lane)
+      longest = std::max(longest, std::min(runs[base + lane].end, n) - std::max(runs[base + lane].begin, 0));
+    Real* const u0 = scratch_u_.data() + static_cast<std::size_t>(ghost) * 5 * width;
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      WallBlock::Run const& run = runs[base + std::min(lane, used - 1)];
+      Index const start = std::max(run.begin, 0);
+      CellIndex c{};
+      c[t0] = run.transverse[0], c[t1] = run.transverse[1];
+      auto const block_state = [&](Index i) {
+        CellIndex at = c;
+        at[d] = i;
+        return block.load(at[0], at[1], at[2]);
+      };
+      auto const put = [&](Index i, State const& s) {
+        Real* const to = u0 + static_cast<std::ptrdiff_t>(i) * 5 * static_cast<std::ptrdiff_t>(width) + lane;
+        for (std::size_t q = 0; q < 5; ++q) to[q * width] = s[component[q]];
+      };
+      Index const from = std::max(run.begin - start, -ghost), to = std::min(run.end - start, longest + ghost);
+      for (Index i = from; i < to; ++i) put(i, block_state(start + i));
+      auto const beyond = [&](Index end, Index first, Index stop, Index step) {
+        State s = block_state(first - step + start);
+        Index m = 0;
+        for (Index i = first; i != stop; i += step, ++m) {
+          if (end >= 0 && m < 3) {
+            WallBlock::RunEnd const& e = ends[static_cast<std::size_t>(end)];
+            auto const at = static_cast<std::size_t>(m);
+            if (e.mirror[at].slot >= 0)
+              s = reflect(images_[e.mirror[at].slot], e.mirror[at]);
+            else if (e.general[at] && start + i >= -ghost && start + i < n + ghost)
+              s = block_state(start + i);
+          }
+          put(i, s);
+        }
+      };
+      beyond(run.low, from - 1, std::min(from - 1, -ghost - 1), -1);
+      beyond(run.high, to, std::max(to, longest + ghost), +1);
+      for (Index f = 0; f <= longest; ++f) {
+        Index const at = start + f;
+        Index room = 6;
+        if (run.low >= 0) room = std::min(room, at - run.begin);
+        if (run.high >= 0) room = std::min(room, run.end - at);
+        scratch_order_[static_cast<std::size_t>(f) * width + lane] = order_within(order, room);
+      }
+    }
+    fluid::LineBundle const bundle{
+        longest, u0, scratch_result_.data(), scratch_flux_.data(), scratch_pressure_.data(), scratch_order_.data()};
+    fluid::SweepReport const report =
+        fluid::sweep_lines(order, bundle, static_cast<std::uint32_t>((1u << used) - 1), sigma, flow_.gas());
+    total.fallback_faces += report.fallback_faces;
+    total.signal_max = max(total.signal_max, report.signal_max);
+
+    for (std::size_t lane = 0; lane < used; ++lane) {
+      WallBlock::Run const& run = runs[base + lane];
+      Index const start = std::max(run.begin, 0), stop = std::min(run.end, n);
+      CellIndex c{};
+      c[t0] = run.transverse[0], c[t1] = run.transverse[1];
+      for (Index i = start; i <= stop; ++i) {
+        CellIndex at = c;
+        at[d] = i;
+        auto const row = static_cast<std::size_t>(i - start);
+        State& f = wall.flux[d][wall.face(direction, at[0], at[1], at[2])];
+        for (std::size_t q = 0; q < 5; ++q) f[component[q]] = scratch_flux_[(row * 5 + q) * width + lane];
+        if (i == stop) break;
+        State s;
+        for (std::size_t q = 0; q < 5; ++q) s[component[q]] = scratch_result_[(row * 5 + q) * width + lane];
+        block.store(at[0], at[1], at[2], s);
+        wall.pressure[d][wall.cell(at[0], at[1], at[2])] = scratch_pressure_[row * width + lane];
+      }
+    }
+  }
+  close_reflecting_sides(block, wall, direction);
+  return total;
+}
+
+void WallSweeper::flux_between_solids(Block const& block, WallBlock& wall, int direction, Real sigma) const {
+  auto const d = static_cast<std::size_t>(direction);
+  for (auto const& [cell, m] : wall.solid)
+    for (int side = 0; side < 2; ++side) {
+      CellIndex neighbour = cell, face = cell;
+      neighbour[d] += side == 0 ? -1 : 1;
+      face[d] += side;
+      CellIndex global = block.first();
+      for (std::size_t e = 0; e < 3; ++e) global[e] += neighbour[e];
+      if (!record_->solid(global)) continue;  // the end of a run: its flux is the run's
+      State const here = block.load(cell[0], cell[1], cell[2]);
+      State const there = block.load(neighbour[0], neighbour[1], neighbour[2]);
+      wall.flux[d][wall.face(direction, face[0], face[1], face[2])] =
+          side == 0 ? fluid::low_order_flux(there, here, direction, sigma, flow_.gas())
+                    : fluid::low_order_flux(here, there, direction, sigma, flow_.gas());
+    }
+}
+
+void WallSweeper::close_reflecting_sides(Block const& block, WallBlock& wall, int direction) const {
+  auto const d = static_cast<std::size_t>(direction);
+  std::size_t const t0 = d == 0 ? 1 : 0, t1 = d == 2 ? 1 : 2;
+  for (int side = 0; side < 2; ++side) {
+    Index const face = side == 0 ? 0 : block.size()[d];
+    if (block.first()[d] + face != (side == 0 ? 0 : flow_.grid().cells[d])) continue;
+    if (!flow_.reflecting(direction, side)) continue;
+    for (Index b = 0; b < block.size()[t1]; ++b)
+      for (Index a = 0; a < block.size()[t0]; ++a) {
+        CellIndex c{};
+        c[d] = face, c[t0] = a, c[t1] = b;
+        State& f = wall.flux[d][wall.face(direction, c[0], c[1], c[2])];
+        Real const normal = f[1 + d];
+        f = {};
+        f[1 + d] = normal;
+      }
+  }
+}
+
+std::size_t WallSweeper::bytes() const {
+  std::size_t total = 0;
+  for (auto const& [id, wall] : blocks_) {
+    total += wall.before.capacity() * sizeof(State);
+    for (std::size_t d = 0; d < 3; ++d)
+      total += wall.flux[d].capacity() * sizeof(State) + wall.pressure[d].capacity() * sizeof(Real) +
+               wall.runs[d].capacity() * sizeof(WallBlock::Run) + wall.ends[d].capacity() * sizeof(WallBlock::RunEnd);
+  }
+  return total;
+}
+
+}  // namespace brisance::coupling

@@ -1,0 +1,90 @@
+// Sweeps of blocks that hold or neighbour a wall: every run of fluid cells of a pencil is a pencil of its own, with
+// mirror states from its own side of the wall at each end (theory/coupling.md 1.9). The kernel is that of the plain
+// blocks.
+#pragma once
+#include <map>
+#include <vector>
+
+#include "coupling/cut_cells/state_gather.hpp"
+#include "coupling/cut_cells/wall_record.hpp"
+#include "fluid/flow.hpp"
+
+namespace brisance::coupling {
+
+/// A cell that enters a sweep with a reflected state.
+struct MirrorCell {
+  Index slot = -1;      ///< image cell in the gather, -1: none
+  Vec3 normal;          ///< unit
+  Real wall_speed = 0;  ///< normal velocity of the wall, m/s
+};
+/// State of the image with its velocity reflected at the moving wall.
+fluid::State reflect(fluid::State u, MirrorCell const& mirror);
+
+/// What the sweeps of one block leave for the balance: the state before the step, and per direction the final flux of
+/// every face and the pressure contained in it.
+struct WallBlock {
+  std::array<Index, 3> size{};
+  std::vector<fluid::State> before;               ///< [cell]: U^n, mirror states in solid cells
+  std::array<std::vector<fluid::State>, 3> flux;  ///< [face], real coordinates
+  std::array<std::vector<Real>, 3> pressure;      ///< [cell], Pa
+  std::size_t cell(Index i, Index j, Index k) const {
+    return static_cast<std::size_t>(i + size[0] * (j + size[1] * k));
+  }
+  /// Face on the low side of cell (i, j, k) along d; i == size along d is the last face.
+  std::size_t face(int d, Index i, Index j, Index k) const {
+    Index const nx = size[0] + (d == 0), ny = size[1] + (d == 1);
+    return static_cast<std::size_t>(i + nx * (j + ny * k));
+  }
+
+  struct Run {
+    Index begin, end;  ///< non-solid cells along the direction, within the ghosts
+    std::array<Index, 2> transverse;
+    Index low = -1, high = -1;  ///< wall at this end: entry of `ends`, -1: the run goes on
+  };
+  struct RunEnd {
+    std::array<MirrorCell, 3> mirror;  ///< outwards from the run
+    std::array<bool, 3> general{};     ///< no image: the solid cell's general mirror state stands there
+  };
+  std::array<std::vector<Run>, 3> runs;  ///< longest first
+  std::array<std::vector<RunEnd>, 3> ends;
+  std::vector<std::pair<CellIndex, MirrorCell>> solid;  ///< local cells with their general mirror states
+};
+
+class WallSweeper : public fluid::BlockSweeper {
+ public:
+  WallSweeper(fluid::Flow& flow, parallel::Comm& comm) : flow_(flow), comm_(comm) {}
+
+  /// Collective. New runs, mirrors and images for the geometry of `record`; then the general mirror states are set.
+  void rebuild(WallRecord const& record);
+  /// Collective. The record moved elsewhere in memory but is the same: mirror states of the present fields.
+  void keep(WallRecord const& record);
+  /// Keeps U^n of the wall blocks.
+  void begin_step();
+
+  bool handles(Index block) const override { return blocks_.contains(block); }
+  void prepare(int direction, Real dt) override;
+  fluid::SweepReport sweep(fluid::Block& block, int direction, Real dt) override;
+
+  std::map<Index, WallBlock>& blocks() { return blocks_; }
+  std::map<Index, WallBlock> const& blocks() const { return blocks_; }
+  fluid::State ambient{};  ///< stands where no image exists
+  std::size_t bytes() const;
+
+ private:
+  void find_runs(fluid::Block const& block, WallBlock& wall, int direction, std::vector<GlobalId>& wanted);
+  void find_solid(fluid::Block const& block, WallBlock& wall, std::vector<GlobalId>& wanted);
+  MirrorCell mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted) const;
+  void refresh_mirrors();
+  void flux_between_solids(fluid::Block const& block, WallBlock& wall, int direction, Real sigma) const;
+  void close_reflecting_sides(fluid::Block const& block, WallBlock& wall, int direction) const;
+
+  fluid::Flow& flow_;
+  parallel::Comm& comm_;
+  WallRecord const* record_ = nullptr;
+  std::map<Index, WallBlock> blocks_;
+  StateGather images_;
+  std::vector<Real> scratch_u_, scratch_result_, scratch_flux_, scratch_pressure_;
+  std::vector<std::uint8_t> scratch_order_;
+};
+
+}  // namespace brisance::coupling

@@ -1,0 +1,166 @@
+#include "drivers/assembly.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/errors.hpp"
+#include "coupling/cut_cells/cell_geometry.hpp"
+#include "fluid/initial_state.hpp"
+
+namespace brisance::drivers {
+
+std::vector<std::string> const& catalogue() {
+  static std::vector<std::string> const names{"fluid.euler", "solid.motion", "solid.links", "solid.gravity",
+                                              "coupling.cut_cells"};
+  return names;
+}
+
+std::vector<Index> count_cut_cells(fluid::Grid const& grid, solid::Mesh const& mesh, solid::Surface const& surface) {
+  std::vector<coupling::SurfaceTriangle> triangles;
+  for (solid::Element const& t : surface.elements()) {
+    coupling::SurfaceTriangle triangle;
+    triangle.id = t.id;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(grid.dimension); ++a) {
+      triangle.vertex[a] = t.vertex[a];
+      triangle.x_new[a] = surface.reference(t.vertex[a], mesh);
+    }
+    triangle.x_old = triangle.x_new;
+    triangles.push_back(triangle);
+  }
+  coupling::Lattice const lattice{grid.dimension, grid.low, grid.spacing};
+  coupling::CellBox const all{{0, 0, 0}, grid.cells};
+  coupling::Geometry geometry;
+  coupling::build(lattice, triangles, std::span(&all, 1), geometry);
+  coupling::require_closed(lattice, geometry);
+  std::vector<Index> count(static_cast<std::size_t>(grid.block_count()), 0);
+  for (coupling::CutCell const& c : geometry.cells) ++count[static_cast<std::size_t>(grid.block_of(c.cell))];
+  return count;
+}
+
+parallel::Partition assign_owners(Scene const& scene, fluid::Grid const* grid, solid::Mesh const* mesh,
+                                  std::vector<Index> const& cut_cells_of_block, int ranks) {
+  std::int64_t const blocks = grid ? grid->block_count() : 0, particles = mesh ? mesh->size() : 0;
+  std::int64_t const units = grid ? blocks : particles;
+  require(ranks <= units, Failure::scene,
+          (scene.fluid ? scene.fluid->at.text() : scene.solid->at.text()) + ": " + std::to_string(ranks) +
+              " ranks, but the scene has only " + std::to_string(units) + (grid ? " fluid block" : " particle") +
+              (units == 1 ? "" : "s") + ": every rank needs one. Use at most " + std::to_string(units) + " ranks" +
+              (grid ? ", or set a smaller fluid.block." : "."));
+  struct Edge {
+    std::int64_t a, b, weight;
+  };
+  std::vector<Edge> edges;
+  parallel::Graph graph;
+  graph.constraints = grid && mesh ? 2 : 1;
+  auto const nc = static_cast<std::size_t>(graph.constraints);
+  graph.vertex_weight.assign(static_cast<std::size_t>(blocks + particles) * nc, 0);
+  Index const ghost = scene.fluid ? fluid::ghost_depth(scene.fluid->order()) : 0;
+  std::int64_t const cost_of_cut_cell = grid && grid->dimension == 3 ? 250 : 50;  // in plain cells (coupling 8.4)
+  for (Index b = 0; b < blocks; ++b) {
+    auto const p = grid->block_position(b);
+    std::array<std::int64_t, 3> size{};
+    for (std::size_t d = 0; d < 3; ++d)
+      size[d] = grid->cuts[d][static_cast<std::size_t>(p[d]) + 1] - grid->cuts[d][static_cast<std::size_t>(p[d])];
+    std::int64_t const cells = size[0] * size[1] * size[2];
+    std::int64_t ghosts = 0;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(grid->dimension); ++d) {
+      ghosts += 2 * ghost * cells / size[d];
+      if (p[d] + 1 >= grid->blocks_along(static_cast<int>(d)) && !grid->periodic[d]) continue;
+      auto n = p;
+      n[d] = (p[d] + 1) % grid->blocks_along(static_cast<int>(d));
+      if (grid->block_id(n) != b) edges.push_back({b, grid->block_id(n), 40 * 2 * ghost * cells / size[d]});
+    }
+    std::int64_t const cut = cut_cells_of_block.empty() ? 0 : cut_cells_of_block[static_cast<std::size_t>(b)];
+    graph.vertex_weight[static_cast<std::size_t>(b) * nc] = cells + ghosts + cost_of_cut_cell * cut;
+  }
+  if (mesh) {
+    for (solid::Link const& link : mesh->links)
+      if (link.j >= 0) edges.push_back({blocks + link.i, blocks + link.j, 128});
+    for (std::int64_t p = 0; p < particles; ++p) {
+      auto const free_faces = static_cast<std::int64_t>(mesh->free_faces_of(p).size());
+      graph.vertex_weight[static_cast<std::size_t>(blocks + p) * nc + nc - 1] =
+          1 + static_cast<std::int64_t>(mesh->links_of(p).size()) + 5 * 2 * free_faces;
+      if (!grid || free_faces == 0) continue;
+      fluid::CellIndex const c = coupling::into_domain(*grid, coupling::cell_of(*grid, mesh->particle(p).centre));
+      edges.push_back({blocks + p, grid->block_of(c), 400 * free_faces});
+    }
+  }
+  for (std::size_t e = 0, n = edges.size(); e < n; ++e) edges.push_back({edges[e].b, edges[e].a, edges[e].weight});
+  std::sort(edges.begin(), edges.end(),
+            [](Edge const& x, Edge const& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+  graph.first.assign(static_cast<std::size_t>(blocks + particles) + 1, 0);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    bool const again = e > 0 && edges[e].a == edges[e - 1].a && edges[e].b == edges[e - 1].b;
+    if (again) {
+      graph.edge_weight.back() += edges[e].weight;
+      continue;
+    }
+    graph.neighbour.push_back(edges[e].b);
+    graph.edge_weight.push_back(edges[e].weight);
+    ++graph.first[static_cast<std::size_t>(edges[e].a) + 1];
+  }
+  for (std::size_t v = 1; v < graph.first.size(); ++v) graph.first[v] += graph.first[v - 1];
+  return parallel::partition(graph, ranks, units);
+}
+
+std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
+  auto world = std::make_unique<World>();
+  World& w = *world;
+  w.comm = &comm;
+  std::optional<fluid::Grid> grid;
+  if (scene.fluid) {
+    fluid::check(*scene.fluid);
+    grid = fluid::make_grid(*scene.fluid);
+    w.dimension = grid->dimension;
+  }
+  bool const coupled = scene.coupling && scene.coupling->cut_cells;
+  require(!coupled || w.dimension >= 2, Failure::scene, "coupling.cut_cells needs a fluid in 2 or 3 dimensions");
+  if (scene.solid) {
+    w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
+    w.surface = std::make_unique<solid::Surface>(*w.mesh);
+  }
+  if (coupled) w.cut_cells_of_block = count_cut_cells(*grid, *w.mesh, *w.surface);
+  w.partition = assign_owners(scene, grid ? &*grid : nullptr, w.mesh.get(), w.cut_cells_of_block, comm.size());
+  auto const blocks = static_cast<std::ptrdiff_t>(grid ? grid->block_count() : 0);
+  auto const& owner = w.partition.owner;
+  if (grid)
+    w.flow = std::make_unique<fluid::Flow>(*scene.fluid, *grid, std::vector<int>(owner.begin(), owner.begin() + blocks),
+                                           comm);
+  if (w.mesh)
+    w.solid =
+        std::make_unique<solid::Solid>(*w.mesh, *scene.solid, std::vector<int>(owner.begin() + blocks, owner.end()),
+                                       comm, w.dimension, coupled ? w.surface.get() : nullptr);
+  if (scene.fluid && scene.fluid->euler) w.euler = std::make_unique<fluid::Euler>(*scene.fluid->euler, *w.flow);
+  if (w.solid) w.dynamics = std::make_unique<solid::Dynamics>(*scene.solid, *w.solid, comm);
+  if (coupled) {
+    fluid::GasState const& air = scene.fluid->ambient;
+    w.cut_cells =
+        std::make_unique<coupling::CutCells>(*scene.coupling->cut_cells, *w.flow, *w.solid, *w.surface,
+                                             w.flow->gas().conserved(air.density, air.velocity, air.pressure), comm);
+  }
+  if (w.euler && w.cut_cells)
+    w.euler->set_fluid_volume([cut = w.cut_cells.get()](fluid::CellIndex c) { return cut->fluid_volume(c); });
+
+  if (w.euler) w.euler->join(w.plan);
+  if (w.dynamics) w.dynamics->join(w.plan);
+  if (w.cut_cells) w.cut_cells->join(w.plan);
+  TimeControl const control{scene.end_time, w.flow ? fluid::steps_per_pair(w.dimension) : 1,
+                            scene.output.interval.value_or(0)};
+  w.simulation = std::make_unique<Simulation>(w.plan, comm, control);
+  return world;
+}
+
+void start(World& w, Scene const& scene) {
+  if (w.cut_cells) w.cut_cells->cut_initial_geometry();
+  if (w.flow) {
+    if (w.cut_cells)
+      fluid::fill(*w.flow, *scene.fluid, [&](fluid::CellIndex c) { return w.cut_cells->fluid_volume(c); });
+    else
+      fluid::fill(*w.flow, *scene.fluid);
+  }
+  if (w.cut_cells) w.cut_cells->start();
+  if (w.dynamics) w.dynamics->start();
+  w.simulation->audit();
+}
+
+}  // namespace brisance::drivers

@@ -1,0 +1,54 @@
+// A scene becomes domains, owners, effects and a plan: the one place that names every effect.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "core/model/simulation.hpp"
+#include "core/solid/effects.hpp"
+#include "core/solid/mesh.hpp"
+#include "core/solid/solid.hpp"
+#include "core/solid/surface.hpp"
+#include "coupling/cut_cells/cut_cells.hpp"
+#include "drivers/scene.hpp"
+#include "fluid/euler.hpp"
+#include "fluid/flow.hpp"
+#include "parallel/partition.hpp"
+
+namespace brisance::drivers {
+
+/// Everything a run holds on this rank. Absent domains and effects are null.
+struct World {
+  parallel::Comm* comm = nullptr;
+  int dimension = 3;
+  std::unique_ptr<solid::Mesh> mesh;
+  std::unique_ptr<solid::Surface> surface;
+  parallel::Partition partition;
+  std::vector<Index> cut_cells_of_block;  ///< at the start
+  std::unique_ptr<fluid::Flow> flow;
+  std::unique_ptr<solid::Solid> solid;
+  std::unique_ptr<fluid::Euler> euler;
+  std::unique_ptr<solid::Dynamics> dynamics;
+  std::unique_ptr<coupling::CutCells> cut_cells;
+  Plan plan;
+  std::unique_ptr<Simulation> simulation;
+};
+
+/// Collective. Builds the world; fields and loads of the initial state are set by `start`, or read from a checkpoint.
+/// Errors: scene errors (nothing is written before this returns).
+std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm);
+
+/// Owners of blocks (first) and particles on `ranks` ranks: one graph for both (house, section 8).
+/// Errors: scene error when there are more ranks than blocks (without a fluid: than particles).
+parallel::Partition assign_owners(Scene const& scene, fluid::Grid const* grid, solid::Mesh const* mesh,
+                                  std::vector<Index> const& cut_cells_of_block, int ranks);
+
+/// Cut cells of each block for the bodies in their initial positions.
+std::vector<Index> count_cut_cells(fluid::Grid const& grid, solid::Mesh const& mesh, solid::Surface const& surface);
+
+/// Collective. Initial fields, geometry, forces and loads; takes the reference of the account.
+void start(World& world, Scene const& scene);
+
+/// The effects this program knows, by scene section, in the order of the catalogue.
+std::vector<std::string> const& catalogue();
+
+}  // namespace brisance::drivers

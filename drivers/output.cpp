@@ -1,0 +1,184 @@
+#include "drivers/output.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "fluid/rows.hpp"
+
+namespace brisance::drivers {
+
+namespace {
+std::string frame_name(std::int64_t step) { return fmt::format("{:08d}.h5", step); }
+}  // namespace
+
+Output::Output(World& world, Scene const& scene, std::string directory)
+    : world_(world), scene_(scene), directory_(std::move(directory)) {
+  if (world_.comm->rank() != 0) return;
+  if (world_.flow) std::filesystem::create_directories(directory_ + "/fields");
+  if (world_.solid) std::filesystem::create_directories(directory_ + "/solid");
+}
+
+void Output::write() {
+  Clock const& clock = world_.simulation->clock();
+  if (!frames_.empty() && frames_.back().step == clock.step) return;
+  std::string const name = frame_name(clock.step);
+  if (world_.flow) write_fields(directory_ + "/fields/" + name);
+  if (world_.solid) write_solid(directory_ + "/solid/" + name);
+  frames_.push_back({clock.step, clock.time});
+  write_series();
+}
+
+void Output::resume(double time) {
+  parallel::Bytes bytes;
+  if (world_.comm->rank() == 0) {
+    std::ifstream file(directory_ + "/frames.txt");
+    Frame frame{};
+    while (file >> frame.step >> frame.time)
+      if (frame.time <= time) parallel::put(bytes, frame);
+  }
+  world_.comm->broadcast(bytes, 0);
+  for (std::span<std::byte const> in(bytes); !in.empty();) frames_.push_back(parallel::take<Frame>(in));
+}
+
+void Output::write_fields(std::string const& path) {
+  fluid::Flow& flow = *world_.flow;
+  parallel::ArchiveWriter file(*world_.comm, path);
+  auto const boxes = fluid::cell_boxes(flow);
+  fluid::Grid const& grid = flow.grid();
+  std::array<std::int64_t, 3> const cells{grid.cells[0], grid.cells[1], grid.cells[2]};
+  for (std::string const& name : scene_.output.fields) {
+    fluid::CellField const field = fluid::cell_field(flow, name);
+    file.grid(name, cells, field.columns, boxes, field.data, true);
+  }
+  if (world_.cut_cells) {
+    std::vector<double> fraction;
+    Real const full = grid.cell_volume();
+    for (fluid::Block const& b : flow.blocks()) {
+      fluid::CellIndex const first = b.first();
+      for (Index k = 0; k < b.size()[2]; ++k)
+        for (Index j = 0; j < b.size()[1]; ++j)
+          for (Index i = 0; i < b.size()[0]; ++i)
+            fraction.push_back(1 - world_.cut_cells->fluid_volume({first[0] + i, first[1] + j, first[2] + k}) / full);
+    }
+    file.grid("solid_fraction", cells, 1, boxes, fraction, true);
+  }
+  file.attribute("time", world_.simulation->clock().time);
+  file.close();
+}
+
+void Output::write_solid(std::string const& path) {
+  // Polygons of the particles' faces. Points, faces and particles are rows numbered by global ids: no rank shows.
+  solid::Mesh const& mesh = *world_.mesh;
+  solid::Solid const& solid = *world_.solid;
+  std::int64_t points = 0, entries = 0, faces = 0;
+  std::vector<double> xyz, velocity;
+  std::vector<std::int64_t> topology, particle, body;
+  std::vector<parallel::Range> point_rows, entry_rows, face_rows;
+  for (GlobalId p = 0; p < mesh.size(); ++p) {
+    solid::Polyhedron const& shape = mesh.shape(p).polyhedron;
+    auto const nv = static_cast<std::int64_t>(shape.vertices.size());
+    std::int64_t ne = 0;
+    for (auto const& face : shape.faces) ne += 2 + static_cast<std::int64_t>(face.size());
+    auto const nf = static_cast<std::int64_t>(shape.faces.size());
+    if (solid.owner(p) == world_.comm->rank()) {
+      auto const local = static_cast<std::size_t>(solid.local(p));
+      solid::Pose const& pose = solid.pose()[local];
+      for (Vec3 const& v : shape.vertices) {
+        Vec3 const x = pose.x + rotate(pose.q, v);
+        xyz.insert(xyz.end(), {x.x, x.y, x.z});
+      }
+      Vec3 const u = solid.motion()[local].v;
+      for (auto const& face : shape.faces) {
+        topology.push_back(3);
+        topology.push_back(static_cast<std::int64_t>(face.size()));
+        for (int const v : face) topology.push_back(points + v);
+        particle.push_back(p);
+        body.push_back(mesh.particle(p).body);
+        velocity.insert(velocity.end(), {u.x, u.y, u.z});
+      }
+      point_rows.push_back({points, nv});
+      entry_rows.push_back({entries, ne});
+      face_rows.push_back({faces, nf});
+    }
+    points += nv, entries += ne, faces += nf;
+  }
+  parallel::ArchiveWriter file(*world_.comm, path);
+  file.rows("points", points, 3, point_rows, xyz);
+  file.rows_int("topology", entries, 1, entry_rows, topology);
+  file.rows_int("particle", faces, 1, face_rows, particle);
+  file.rows_int("body", faces, 1, face_rows, body);
+  file.rows("velocity", faces, 3, face_rows, velocity);
+  file.attribute("time", world_.simulation->clock().time);
+  file.close();
+}
+
+void Output::write_series() {
+  std::string frames;
+  for (Frame const& f : frames_) frames += fmt::format("{} {:.17g}\n", f.step, f.time);
+  parallel::write_text_atomically(*world_.comm, directory_ + "/frames.txt", frames);
+  auto const series = [&](std::string const& grids) {
+    return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n <Domain>\n  <Grid Name=\"series\" "
+           "GridType=\"Collection\" "
+           "CollectionType=\"Temporal\">\n" +
+           grids + "  </Grid>\n </Domain>\n</Xdmf>\n";
+  };
+  if (world_.flow) {
+    fluid::Grid const& g = world_.flow->grid();
+    std::string grids;
+    for (Frame const& f : frames_) {
+      grids += fmt::format(
+          "   <Grid Name=\"flow\"><Time Value=\"{:.9g}\"/>\n    <Topology TopologyType=\"3DCoRectMesh\" "
+          "Dimensions=\"{} {} "
+          "{}\"/>\n    <Geometry GeometryType=\"ORIGIN_DXDYDZ\"><DataItem Dimensions=\"3\">{:.17g} {:.17g} "
+          "{:.17g}</DataItem><DataItem Dimensions=\"3\">{:.17g} {:.17g} {:.17g}</DataItem></Geometry>\n",
+          f.time, g.cells[2] + 1, g.cells[1] + 1, g.cells[0] + 1, g.low.z, g.low.y, g.low.x, g.spacing.z, g.spacing.y,
+          g.spacing.x);
+      std::vector<std::string> names = scene_.output.fields;
+      if (world_.cut_cells) names.push_back("solid_fraction");
+      for (std::string const& name : names) {
+        bool const vector = name == "velocity";
+        grids += fmt::format(
+            "    <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Cell\"><DataItem Format=\"HDF\" Precision=\"4\" "
+            "Dimensions=\"{} {} {}{}\">fields/{}:/{}</DataItem></Attribute>\n",
+            name, vector ? "Vector" : "Scalar", g.cells[2], g.cells[1], g.cells[0], vector ? " 3" : "",
+            frame_name(f.step), name);
+      }
+      grids += "   </Grid>\n";
+    }
+    parallel::write_text_atomically(*world_.comm, directory_ + "/fields.xdmf", series(grids));
+  }
+  if (world_.solid) {
+    std::int64_t points = 0, entries = 0, faces = 0;
+    for (GlobalId p = 0; p < world_.mesh->size(); ++p) {
+      solid::Polyhedron const& shape = world_.mesh->shape(p).polyhedron;
+      points += static_cast<std::int64_t>(shape.vertices.size());
+      faces += static_cast<std::int64_t>(shape.faces.size());
+      for (auto const& face : shape.faces) entries += 2 + static_cast<std::int64_t>(face.size());
+    }
+    std::string grids;
+    for (Frame const& f : frames_) {
+      std::string const file = "solid/" + frame_name(f.step);
+      grids += fmt::format(
+          "   <Grid Name=\"solid\"><Time Value=\"{:.9g}\"/>\n    <Topology TopologyType=\"Mixed\" "
+          "NumberOfElements=\"{}\"><DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"8\" "
+          "Dimensions=\"{}\">{}:/topology"
+          "</DataItem></Topology>\n    <Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\" Precision=\"8\" "
+          "Dimensions=\"{} 3\">{}:/points</DataItem></Geometry>\n",
+          f.time, faces, entries, file, points, file);
+      for (char const* name : {"particle", "body"})
+        grids += fmt::format(
+            "    <Attribute Name=\"{}\" Center=\"Cell\"><DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"8\" "
+            "Dimensions=\"{}\">{}:/{}</DataItem></Attribute>\n",
+            name, faces, file, name);
+      grids += fmt::format(
+          "    <Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Cell\"><DataItem Format=\"HDF\" "
+          "Precision=\"8\" Dimensions=\"{} 3\">{}:/velocity</DataItem></Attribute>\n   </Grid>\n",
+          faces, file);
+    }
+    parallel::write_text_atomically(*world_.comm, directory_ + "/solid.xdmf", series(grids));
+  }
+}
+
+}  // namespace brisance::drivers

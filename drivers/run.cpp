@@ -1,0 +1,207 @@
+// brisance run and brisance restart: the loop around the pairs of steps.
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include <spdlog/spdlog.h>
+
+#include "drivers/checkpoints.hpp"
+#include "drivers/commands.hpp"
+#include "drivers/log.hpp"
+#include "drivers/output.hpp"
+#include "drivers/summary.hpp"
+#include "parallel/archive.hpp"
+#include "parallel/error.hpp"
+
+namespace brisance::drivers {
+
+namespace {
+
+constexpr int exit_stopped = 75;
+volatile std::sig_atomic_t stop_signal = 0;
+extern "C" void note_signal(int signal) { stop_signal = signal; }
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// history.csv: appended on rank 0; after a restart the rows of steps that are run again are dropped.
+class History {
+ public:
+  History(World const& world, std::string const& directory, std::optional<double> interval)
+      : world_(world), path_(directory + "/history.csv"), interval_(interval) {
+    if (world.comm->rank() != 0) return;
+    std::string kept = history_header();
+    std::ifstream old(path_);
+    std::string line;
+    std::int64_t const step = world.simulation->clock().step;
+    if (step > 0 && std::getline(old, line))
+      while (std::getline(old, line))
+        if (std::atoll(line.c_str()) <= step) kept += line + "\n";
+    old.close();
+    std::ofstream(path_) << kept;
+    if (interval_) next_ = std::floor(world.simulation->clock().time / *interval_) + 1;
+  }
+  void row() {
+    if (world_.comm->rank() != 0) return;
+    if (interval_) {
+      if (world_.simulation->clock().time < next_ * *interval_ * (1 - 1e-12)) return;
+      next_ = std::floor(world_.simulation->clock().time / *interval_ * (1 + 1e-12)) + 1;
+    }
+    std::ofstream file(path_, std::ios::app);
+    file << history_row(world_);
+    file.flush();
+    require(file.good(), Failure::system, path_ + ": cannot be written (is the disk full?)");
+  }
+
+ private:
+  World const& world_;
+  std::string path_;
+  std::optional<double> interval_;
+  double next_ = 1;
+};
+
+struct Job {
+  LoadedScene loaded;
+  std::string directory;
+  StopOptions stop;
+  std::vector<std::string> checkpoints;  ///< candidates to resume from, newest first; empty: from the start
+};
+
+void make_directories(parallel::Comm& comm, std::string const& directory) {
+  std::string trouble;
+  if (comm.rank() == 0) {
+    std::error_code error;
+    std::filesystem::create_directories(directory + "/checkpoints", error);
+    if (error) trouble = directory + ": cannot be created: " + error.message();
+  }
+  parallel::Bytes bytes(trouble.size());
+  std::memcpy(bytes.data(), trouble.data(), trouble.size());
+  comm.broadcast(bytes, 0);
+  if (!bytes.empty())
+    throw Error(Failure::system, std::string(reinterpret_cast<char const*>(bytes.data()), bytes.size()));
+}
+
+/// Reads the newest good checkpoint; a damaged one is named and the one before it is taken.
+void resume(World& world, std::vector<std::string> const& candidates) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    try {
+      read_checkpoint(world, candidates[i]);
+      spdlog::info("resumed from {} (step {}, t = {:.6g} s)", candidates[i], world.simulation->clock().step,
+                   world.simulation->clock().time);
+      return;
+    } catch (Error const& error) {
+      if (error.kind() != Failure::system || i + 1 == candidates.size()) throw;
+      spdlog::warn("{}; trying the checkpoint before it", error.what());
+    }
+  }
+}
+
+int execute(Job const& job, parallel::Comm& comm) {
+  double const begin = seconds_now();
+  Scene const& scene = job.loaded.scene;
+  auto const world = assemble(scene, comm);
+  Simulation& simulation = *world->simulation;
+  make_directories(comm, job.directory);
+  log_to_file(job.directory + "/run.log");
+  parallel::write_text_atomically(comm, job.directory + "/scene.toml", job.loaded.text);
+  parallel::write_text_atomically(comm, job.directory + "/scene.resolved.toml", job.loaded.resolved());
+
+  bool const fresh = job.checkpoints.empty();
+  if (fresh)
+    start(*world, scene);
+  else
+    resume(*world, job.checkpoints);
+  Output output(*world, scene, job.directory);
+  comm.barrier();
+  if (fresh)
+    output.write();
+  else
+    output.resume(simulation.clock().time);
+  History history(*world, job.directory, scene.output.history_interval);
+  RunState run;
+  run.scene = job.loaded.path;
+  run.first_step = simulation.clock().step;
+  run.setup_s = seconds_now() - begin;
+  update_extrema(*world, run);
+  if (world->flow)
+    spdlog::info("{} cells in {} blocks, {} ranks", world->flow->grid().cell_count(), world->flow->grid().block_count(),
+                 comm.size());
+  if (world->mesh) spdlog::info("{} particles, {} links", world->mesh->size(), world->mesh->links.size());
+
+  stop_signal = 0;
+  for (int const s : {SIGTERM, SIGINT, SIGUSR1}) std::signal(s, note_signal);
+  double checkpoint_number =
+      scene.output.checkpoint_interval ? std::floor(simulation.clock().time / *scene.output.checkpoint_interval) : 0;
+  double last_report = seconds_now();
+  bool stopped = false;
+  auto const reached = [&] {
+    return simulation.finished() || (job.stop.until && simulation.clock().time >= *job.stop.until) ||
+           (job.stop.steps && simulation.clock().step >= *job.stop.steps);
+  };
+  while (!reached()) {
+    simulation.pair();
+    update_extrema(*world, run);
+    history.row();
+    if (simulation.at_output_time()) output.write();
+    std::uint64_t wish = stop_signal != 0 || (job.stop.walltime && seconds_now() - begin > *job.stop.walltime);
+    comm.bit_or(std::span(&wish, 1));
+    stopped = wish != 0 && !reached();
+    bool checkpoint_due = false;
+    if (scene.output.checkpoint_interval) {
+      double const number = std::floor(simulation.clock().time / *scene.output.checkpoint_interval * (1 + 1e-12));
+      checkpoint_due = number > checkpoint_number;
+      checkpoint_number = number;
+    }
+    if (checkpoint_due && !stopped && !reached()) {
+      write_checkpoint(*world, job.directory);
+      run.wall_s = seconds_now() - begin;
+      write_summary(*world, run, job.directory);
+    }
+    if (seconds_now() - last_report > 10) {
+      last_report = seconds_now();
+      spdlog::info("step {}  t = {:.6g} s  dt = {:.3g} s ({})  energy defect {:.2g}", simulation.clock().step,
+                   simulation.clock().time, simulation.clock().dt, simulation.limited_by(),
+                   simulation.ledger().conservation().energy_final);
+    }
+    if (stopped) break;
+  }
+  if (!stopped && simulation.finished()) output.write();
+  write_checkpoint(*world, job.directory);
+  run.exit = stopped ? "stopped" : "done";
+  run.wall_s = seconds_now() - begin;
+  write_summary(*world, run, job.directory);
+  Conservation const& c = simulation.ledger().conservation();
+  spdlog::info(
+      "{}: {} steps, t = {:.6g} s, {:.1f} s of wall time; defects: mass {:.1e}, momentum {:.1e}, exchange energy "
+      "{:.1e}, energy {:.1e}; digest {}",
+      run.exit, simulation.clock().step, simulation.clock().time, run.wall_s, c.mass,
+      max(c.momentum.x, max(c.momentum.y, c.momentum.z)), c.exchange_energy, c.energy, simulation.digest().hex());
+  if (stopped) spdlog::info("resume with: brisance restart {}", job.directory);
+  return stopped ? exit_stopped : 0;
+}
+
+}  // namespace
+
+int run_scene(RunOptions const& options, parallel::Comm& comm) {
+  start_log(comm, options.quiet);
+  Job job{load_scene(options.scene, options.overrides, comm), options.out, options.stop, {}};
+  if (options.restart) {
+    job.checkpoints =
+        *options.restart == "auto" ? list_checkpoints(comm, options.out) : std::vector<std::string>{*options.restart};
+  }
+  return execute(job, comm);
+}
+
+int restart_run(RestartOptions const& options, parallel::Comm& comm) {
+  start_log(comm, options.quiet);
+  Job job{load_scene(options.directory + "/scene.resolved.toml", {}, comm), options.directory, options.stop,
+          list_checkpoints(comm, options.directory)};
+  require(!job.checkpoints.empty(), Failure::system,
+          options.directory + ": there is no checkpoint to continue from; start the scene with \"brisance run\"");
+  return execute(job, comm);
+}
+
+}  // namespace brisance::drivers

@@ -1,0 +1,156 @@
+#include "drivers/summary.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace brisance::drivers {
+
+namespace {
+
+nlohmann::json number_or_null(double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); }
+
+double imbalance(std::vector<double> const& per_rank) {
+  double sum = 0, most = 0;
+  for (double const x : per_rank) sum += x, most = std::max(most, x);
+  return sum > 0 ? most * static_cast<double>(per_rank.size()) / sum : 1;
+}
+
+}  // namespace
+
+void update_extrema(World& world, RunState& run) {
+  if (!world.flow) return;
+  fluid::FluidVolume volume;
+  if (world.cut_cells) volume = [&](fluid::CellIndex c) { return world.cut_cells->fluid_volume(c); };
+  fluid::Extremes const e = fluid::extremes(*world.flow, volume);
+  std::array<double, 2> low{e.density_min, e.pressure_min};
+  std::array<double, 1> high{e.mach_max};
+  world.comm->min(low);
+  world.comm->max(high);
+  bool const first = run.density_min == 0 && run.pressure_min == 0;
+  run.density_min = first ? low[0] : min(run.density_min, low[0]);
+  run.pressure_min = first ? low[1] : min(run.pressure_min, low[1]);
+  run.mach_max = max(run.mach_max, high[0]);
+}
+
+void write_summary(World& world, RunState const& run, std::string const& directory) {
+  parallel::Comm& comm = *world.comm;
+  Simulation& simulation = *world.simulation;
+  std::string const digest = simulation.digest().hex();
+
+  // Gathered per rank: peak memory, wall time in tasks, then wall time and bytes of every effect.
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::vector<double> mine{static_cast<double>(usage.ru_maxrss) * 1024, 0};
+  for (Plan::EffectCost const& e : world.plan.effects()) {
+    mine[1] += e.wall_s;
+    mine.push_back(e.wall_s);
+    mine.push_back(static_cast<double>(e.bytes()));
+  }
+  std::int64_t counts[6] = {
+      world.cut_cells ? world.cut_cells->cut_cell_count() : 0, world.euler ? world.euler->fallback_faces() : 0,
+      world.euler ? world.euler->cell_updates() : 0,           world.dynamics ? world.dynamics->link_updates() : 0,
+      world.cut_cells ? world.cut_cells->cut_cells_done() : 0, 0};
+  comm.sum(std::span(counts));
+  parallel::Bytes bytes(mine.size() * sizeof(double));
+  std::memcpy(bytes.data(), mine.data(), bytes.size());
+  auto const gathered = comm.gather(bytes, 0);
+
+  std::string text;
+  if (comm.rank() == 0) {
+    std::vector<double> memory, busy, cells;
+    std::vector<double> effect_wall(world.plan.effects().size(), 0), effect_bytes(world.plan.effects().size(), 0);
+    for (parallel::Bytes const& b : gathered) {
+      std::vector<double> v(mine.size());
+      std::memcpy(v.data(), b.data(), b.size());
+      memory.push_back(v[0]);
+      busy.push_back(v[1]);
+      for (std::size_t e = 0; e < effect_wall.size(); ++e) {
+        effect_wall[e] = std::max(effect_wall[e], v[2 + 2 * e]);
+        effect_bytes[e] += v[3 + 2 * e];
+      }
+    }
+    cells.assign(static_cast<std::size_t>(comm.size()), 0);
+    if (world.flow) {
+      fluid::Grid const& g = world.flow->grid();
+      for (Index b = 0; b < g.block_count(); ++b) {
+        auto const p = g.block_position(b);
+        double n = 1;
+        for (std::size_t d = 0; d < 3; ++d)
+          n *= g.cuts[d][static_cast<std::size_t>(p[d]) + 1] - g.cuts[d][static_cast<std::size_t>(p[d])];
+        cells[static_cast<std::size_t>(world.flow->owner(b))] += n;
+      }
+    }
+    Clock const& clock = simulation.clock();
+    StepStatistics const& s = simulation.statistics();
+    Conservation const& c = simulation.ledger().conservation();
+    double const loop_s = std::max(run.wall_s - run.setup_s, 1e-9);
+    nlohmann::ordered_json j;
+    j["program"] = "brisance";
+    j["version"] = BRISANCE_VERSION;
+    j["scene"] = run.scene;
+    j["ranks"] = comm.size();
+    j["exit"] = run.exit;
+    j["steps"] = clock.step;
+    j["time"] = clock.time;
+    j["wall_s"] = run.wall_s;
+    j["setup_s"] = run.setup_s;
+    j["cells"] = world.flow ? world.flow->grid().cell_count() : 0;
+    j["cut_cells"] = counts[0];
+    j["particles"] = world.mesh ? world.mesh->size() : 0;
+    j["links"] = world.mesh ? static_cast<std::int64_t>(world.mesh->links.size()) : 0;
+    j["links_broken"] = 0;
+    j["dt"] = {{"min", s.dt_min}, {"max", s.dt_max}, {"limited_by", s.limited_by}};
+    j["conservation"] = {{"mass", c.mass},
+                         {"momentum", {c.momentum.x, c.momentum.y, c.momentum.z}},
+                         {"exchange_energy", c.exchange_energy},
+                         {"energy", c.energy},
+                         {"energy_final", c.energy_final}};
+    j["extrema"] = {{"density_min", number_or_null(run.density_min)},
+                    {"pressure_min", number_or_null(run.pressure_min)},
+                    {"mach_max", run.mach_max}};
+    j["retries"] = s.retries;
+    j["fallback_faces"] = counts[1];
+    j["throughput"] = {{"cell_updates_per_s", static_cast<double>(counts[2]) / loop_s},
+                       {"link_updates_per_s", static_cast<double>(counts[3]) / loop_s},
+                       {"cut_cells_per_s", static_cast<double>(counts[4]) / loop_s}};
+    nlohmann::ordered_json effects;
+    for (std::string const& name : catalogue()) {
+      auto const& known = world.plan.effects();
+      auto const at = std::find_if(known.begin(), known.end(), [&](auto const& e) { return e.name == name; });
+      bool const active = at != known.end();
+      auto const i = static_cast<std::size_t>(at - known.begin());
+      effects[name] = {
+          {"active", active}, {"wall_s", active ? effect_wall[i] : 0}, {"bytes", active ? effect_bytes[i] : 0}};
+    }
+    j["effects"] = effects;
+    j["memory_peak_bytes_per_rank"] = memory;
+    j["partition"] = {{"imbalance_cells", imbalance(cells)},
+                      {"imbalance_measured", imbalance(busy)},
+                      {"edge_cut", world.partition.edge_cut}};
+    j["state_digest"] = digest;
+    text = j.dump(2) + "\n";
+  }
+  parallel::write_text_atomically(comm, directory + "/summary.json", text);
+}
+
+std::string history_header() {
+  return "step,time,dt,limited_by,mass,energy,energy_fluid,energy_kinetic,energy_elastic,defect_mass,defect_momentum_x,"
+         "defect_momentum_y,defect_momentum_z,defect_exchange_energy,defect_energy,links_broken\n";
+}
+
+std::string history_row(World const& world) {
+  Simulation const& s = *world.simulation;
+  Ledger const& l = s.ledger();
+  Conservation const& c = l.conservation();
+  return fmt::format(
+      "{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},0\n",
+      s.clock().step, s.clock().time, s.clock().dt, s.limited_by(), l.total(Entry::mass), l.total(Entry::energy),
+      l.total(Entry::fluid_energy), l.total(Entry::solid_kinetic), l.total(Entry::solid_elastic), c.mass, c.momentum.x,
+      c.momentum.y, c.momentum.z, c.exchange_energy, c.energy_final);
+}
+
+}  // namespace brisance::drivers

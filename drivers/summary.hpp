@@ -1,0 +1,26 @@
+// summary.json of the contract, and the row of history.csv.
+#pragma once
+#include <string>
+
+#include "drivers/assembly.hpp"
+
+namespace brisance::drivers {
+
+struct RunState {
+  std::string scene;
+  std::string exit = "running";  ///< running, done, stopped, failed
+  double setup_s = 0, wall_s = 0;
+  Real density_min = 0, pressure_min = 0, mach_max = 0;  ///< over the run
+  std::int64_t first_step = 0;                           ///< of this process: rates count from here
+};
+
+/// Collective. Extremes of the present state join those of the run.
+void update_extrema(World& world, RunState& run);
+
+/// Collective. Writes DIR/summary.json atomically.
+void write_summary(World& world, RunState const& run, std::string const& directory);
+
+std::string history_header();
+std::string history_row(World const& world);
+
+}  // namespace brisance::drivers
