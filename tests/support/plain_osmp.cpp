@@ -72,7 +72,8 @@ PlainFace face_between(State const& ul, State const& ur, PlainCell const& l, Pla
     }
     f.third = f.out_of(h);
   }
-  bool const llf = f.vacuum || sigma * a > (gas.kappa() <= 2 ? 0.8 : 0.5);
+  double const hlle_courant = gas.gamma <= 1.67 ? 0.905 : gas.kappa() <= 2 ? 0.8 : 0.5;
+  bool const llf = f.vacuum || sigma * a > hlle_courant;
   double const sl = std::min({0.0, l.u - l.c, f.u - f.c}), sr = std::max({0.0, r.u + r.c, f.u + f.c});
   for (std::size_t k = 0; k < 5; ++k)
     f.low[k] = llf ? f.mean[k] - 0.5 * a * (ur[k] - ul[k])

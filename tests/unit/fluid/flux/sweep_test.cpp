@@ -59,7 +59,8 @@ TEST_P(SweepAgainstPlain, EqualsTheSchemeWrittenPlainly) {
   auto const [order, data] = GetParam();
   IdealGas const gas = test_gas();
   constexpr int pencils = 19;  // full bundles and a padded one
-  double const sigma = (data == Data::smooth ? 0.8 : 0.9) / fastest(data, gas, pencils);
+  // 0.98: some low-order fluxes are HLLE, some LLF
+  double const courant = data == Data::smooth ? 0.8 : 0.98, sigma = courant / fastest(data, gas, pencils);
   FluxBox box({cells, pencils, 1}, ghosts);
   for (int l = 0; l < pencils; ++l)
     for (Index c = -ghosts; c < cells + ghosts; ++c) box.set(c, l, 0, sample(c, l, data, gas));
@@ -82,7 +83,7 @@ TEST_P(SweepAgainstPlain, EqualsTheSchemeWrittenPlainly) {
   EXPECT_LT(worst,
             data == Data::smooth ? 3e-15 : 2e-14);  // rounding of terms of size max |U|, 30 times 1 in the strong data
   EXPECT_EQ(report.fallback_faces + report.fallback_faces_high_end, limited);
-  EXPECT_NEAR(report.signal_max * sigma, data == Data::smooth ? 0.8 : 0.9, 0.1);
+  EXPECT_NEAR(report.signal_max * sigma, courant, 0.1);  // the fastest cell may be a ghost
   for (std::size_t q = 0; q < 5; ++q) {
     scale = 1 + std::abs(low[q]) + std::abs(high[q]);
     EXPECT_NEAR(report.flux_low[q], low[q], 1e-13 * scale);
