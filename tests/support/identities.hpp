@@ -13,7 +13,7 @@ struct Identities {
   Real mismatch = 0;  ///< x, y, z volumes, in cells
   Real volume = 0;    ///< solid volume against the polyhedron, relative
   Real cell_law = 0;  ///< (G2), in cells
-  Real total = 0;     ///< sum of all swept volumes against the change of the polyhedron's volume, relative to it
+  Real total = 0;     ///< sum of all swept volumes against the change of the polyhedron's volume, likewise
   Real prism = 0;     ///< (G3) per piece: sum over cells against the closed formula, in cells
   Real least_aperture = 1, most_aperture = 0;  ///< in faces
   Real least_volume = 1, most_volume = 0;      ///< in cells
@@ -34,20 +34,20 @@ inline CellVolumes volumes_of(coupling::Geometry const& g) {
   return v;
 }
 
-/// W of a piece from the formula of 1.1 (triangles of the fan), in 2D the shoelace of the quadrilateral.
+/// W of a piece [m3] from the formula of 1.1 (triangles of the fan), in 2D the shoelace of the quadrilateral; in grid
+/// units, as the vertices of record are those tied to the grid planes.
 inline Real closed_formula(coupling::Lattice const& lattice, coupling::Geometry const& g, coupling::Piece const& p,
                            coupling::SurfaceTriangle const& t) {
   auto const corners = g.corners_of(p);
-  auto const now = [&](std::size_t c) { return lattice.position(corners[c].point); };
+  Vec3 const base{static_cast<Real>(p.cell[0]), static_cast<Real>(p.cell[1]), static_cast<Real>(p.cell[2])};
+  auto const now = [&](std::size_t c) { return corners[c].point - base; };
   auto const before = [&](std::size_t c) {
     Vec3 x{};
-    for (std::size_t v = 0; v < static_cast<std::size_t>(lattice.dimension); ++v) x += corners[c].bary[v] * t.x_old[v];
+    for (std::size_t v = 0; v < static_cast<std::size_t>(lattice.dimension); ++v)
+      x += corners[c].bary[v] * (lattice.grid_point(t.x_old[v]) - base);
     return x;
   };
-  if (lattice.dimension == 2) {
-    Vec3 const d1 = now(0) - before(1), d2 = now(1) - before(0);
-    return 0.5 * lattice.spacing.z * cross(d1, d2).z;
-  }
+  if (lattice.dimension == 2) return 0.5 * cross(now(0) - before(1), now(1) - before(0)).z * lattice.cell_volume();
   Real sum = 0;
   for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
     Vec3 const a1 = before(0), b1 = before(c), c1 = before(c + 1), a2 = now(0), b2 = now(c), c2 = now(c + 1);
@@ -55,7 +55,7 @@ inline Real closed_formula(coupling::Lattice const& lattice, coupling::Geometry 
         2 * cross(b1 - a1, c1 - a1) + 2 * cross(b2 - a2, c2 - a2) + cross(b1 - a1, c2 - a2) + cross(b2 - a2, c1 - a1);
     sum += dot(s, (a2 - a1) + (b2 - b1) + (c2 - c1)) / 36;
   }
-  return sum;
+  return sum * lattice.cell_volume();
 }
 
 inline Identities measure(coupling::Lattice const& lattice, Shape const& old, Shape const& now) {
@@ -90,7 +90,9 @@ inline Identities measure(coupling::Lattice const& lattice, Shape const& old, Sh
     return static_cast<Real>(sum);
   };
   Real const exact0 = enclosed(old, dimension, lattice.spacing.z), exact1 = enclosed(now, dimension, lattice.spacing.z);
-  r.volume = max(std::abs(solid(law0) - exact0) / exact0, std::abs(solid(law1) - exact1) / exact1);
+  // A body much smaller than its cells is known no better than the positions of its corners among the planes.
+  Real const scale = max(exact0, cell);
+  r.volume = max(std::abs(solid(law0) - exact0), std::abs(solid(law1) - exact1)) / scale;
 
   std::map<CellIndex, Real> balance;
   std::vector<Swept> parts;
@@ -114,7 +116,7 @@ inline Identities measure(coupling::Lattice const& lattice, Shape const& old, Sh
   for (auto const* v : {&law0, &law1})
     for (auto const& entry : *v) balance.try_emplace(entry.first, 0.0);
   for (auto const& [c, w] : balance) r.cell_law = max(r.cell_law, std::abs(value(law1, c) - value(law0, c) + w) / cell);
-  r.total = std::abs(static_cast<Real>(total) - (exact1 - exact0)) / exact0;
+  r.total = std::abs(static_cast<Real>(total) - (exact1 - exact0)) / scale;
   r.cells = g1.cells.size();
   r.pieces = g1.pieces.size();
   return r;
