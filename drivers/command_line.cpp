@@ -15,6 +15,12 @@
 namespace brisance::drivers {
 namespace {
 
+/// A check of CLI11: empty when the text is a whole number from 1 on.
+std::string at_least_one(std::string const& text) {
+  bool const digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  return digits && text.find_first_not_of('0') != std::string::npos ? "" : text + " is not a whole number from 1 on";
+}
+
 /// StopOptions as they are typed.
 struct StopText {
   std::string until, walltime;
@@ -23,7 +29,7 @@ struct StopText {
   void add_to(CLI::App& command) {
     command.add_option("--until", until, "end at this simulated time, counted from the start of the scene: \"1 ms\"");
     command.add_option("--steps", steps, "end after this many steps, counted from the start of the scene")
-        ->check(CLI::PositiveNumber);
+        ->check(at_least_one);
     command.add_option("--walltime", walltime, "stop with a checkpoint after this real time: 1h50m (exit code 75)");
   }
 
@@ -40,8 +46,7 @@ struct StopText {
 void add_overrides(CLI::App& command, std::vector<std::string>& overrides) {
   command.add_option("--set", overrides, "set a key of the scene: key.path=VALUE; may be repeated")
       ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);
 }
 
 /// All subcommands. `chosen` becomes the call to the one that was given.
@@ -111,7 +116,7 @@ class CommandLine {
     command.add_option("SCENE", check_.scene, "the scene, a TOML file")->required();
     add_overrides(command, check_.overrides);
     command.add_option("--ranks", check_.ranks, "number of ranks to plan for")
-        ->check(CLI::PositiveNumber)
+        ->check(at_least_one, "")
         ->capture_default_str();
     command.add_flag("--json", check_.json, "print JSON");
     command.callback([this] { chosen_ = [this] { return check_scene(check_, comm_); }; });

@@ -84,7 +84,10 @@ std::string LoadedScene::resolved() const {
 }
 
 LoadedScene load_scene(std::string const& path, std::vector<std::string> const& overrides, parallel::Comm& comm) {
-  LoadedScene loaded{{}, path, read_on_root(path, comm), overrides};
+  LoadedScene loaded;
+  loaded.path = path;
+  loaded.text = read_on_root(path, comm);
+  loaded.overrides = overrides;
   Tree tree = parse_toml(loaded.text, path);
   for (std::string const& assignment : overrides) apply_override(tree, assignment);
   loaded.scene = read_keys<Scene>(tree);

@@ -51,7 +51,7 @@ cores() {
 
 # mpirun_options RANKS: sets the array mpi.
 mpirun_options() {
-  mpi=(mpirun -n "$1")
+  mpi=(mpirun -n "$1" --quiet)  # brisance says itself why it ended
   [[ $(id -u) -eq 0 ]] && mpi+=(--allow-run-as-root)
   (($1 > $(cores))) && mpi+=(--oversubscribe)
   (($1 >= $(cores))) && mpi+=(--mca mpi_yield_when_idle 1)

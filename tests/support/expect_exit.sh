@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # expect_exit.sh CODE REGEX ABSENT COMMAND...: the command ends with CODE and what it says, on one line, matches REGEX (of
-# grep -E); with ABSENT not "-", that path does not exist afterwards, though it may before: it is removed first.
+# grep -E), with at most one error message; with ABSENT not "-", that path does not exist afterwards, though it may before:
+# it is removed first.
 set -u
 code=$1 regex=$2 absent=$3
 shift 3
@@ -14,6 +15,10 @@ if [[ $got -ne $code ]]; then
 fi
 if ! tr '\n' ' ' <<<"$said" | grep -qE -- "$regex"; then
   echo "FAILED: the message does not match: $regex"
+  failed=1
+fi
+if [[ $(grep -c 'brisance: error' <<<"$said") -gt 1 ]]; then
+  echo "FAILED: more than one error message"
   failed=1
 fi
 if [[ $absent != - && -e $absent ]]; then

@@ -1,0 +1,67 @@
+brisance_test(drivers_test SOURCES unit/drivers/times_test.cpp unit/drivers/scene_test.cpp LINKS brisance::drivers LABELS unit)
+
+# One message and one exit code, whoever fails.
+add_executable(guard_probe support/guard_probe.cpp)
+target_link_libraries(guard_probe PRIVATE brisance::drivers)
+foreach(ranks 1 2 3)
+  brisance_expect(guard_all_fail.${ranks}ranks CODE 3 RANKS ${ranks} LABELS parallel
+                  MESSAGE "brisance: error: cell 7 has no density" COMMAND $<TARGET_FILE:guard_probe> all)
+  brisance_expect(guard_passes_codes.${ranks}ranks CODE 75 RANKS ${ranks} LABELS parallel MESSAGE ""
+                  COMMAND $<TARGET_FILE:guard_probe> none)
+endforeach()
+brisance_expect(guard_one_fails.3ranks CODE 4 RANKS 3 LABELS parallel MESSAGE "error on rank 2 alone: disk full"
+                COMMAND $<TARGET_FILE:guard_probe> last)
+brisance_expect(guard_internal CODE 1 LABELS unit MESSAGE "internal error: a bug" COMMAND $<TARGET_FILE:guard_probe> internal)
+
+# The command line, end to end.
+set(brisance $<TARGET_FILE:brisance>)
+set(work ${CMAKE_CURRENT_BINARY_DIR}/command_line)
+
+brisance_expect(usage_no_command CODE 2 LABELS unit MESSAGE "subcommand is required" COMMAND ${brisance})
+brisance_expect(usage_unknown_command CODE 2 LABELS unit MESSAGE "no subcommand rnu, the nearest is run" COMMAND ${brisance} rnu)
+brisance_expect(usage_unknown_option CODE 2 LABELS unit MESSAGE "--fats" COMMAND ${brisance} run x.toml --fats)
+brisance_expect(usage_wrong_walltime CODE 2 LABELS unit MESSAGE "--walltime .soon. is not a time; expected one such as 1h50m"
+                ABSENT ${work}/out_walltime COMMAND ${brisance} run x.toml --out ${work}/out_walltime --walltime soon)
+brisance_expect(usage_wrong_until CODE 2 LABELS unit MESSAGE "--until .1 kg.: 'kg' has the wrong dimension"
+                COMMAND ${brisance} run x.toml --until "1 kg")
+brisance_expect(usage_wrong_steps CODE 2 LABELS unit MESSAGE "--steps: -3 is not a whole number from 1 on" COMMAND ${brisance} run x.toml --steps=-3)
+foreach(command run restart check bench params)
+  brisance_expect(help_${command} CODE 0 LABELS unit MESSAGE "Usage: brisance ${command}" COMMAND ${brisance} ${command} --help)
+endforeach()
+brisance_expect(help CODE 0 LABELS unit MESSAGE "run.*restart.*check.*bench.*params.*Exit codes" COMMAND ${brisance} --help)
+brisance_expect(version CODE 0 LABELS unit MESSAGE "brisance ${PROJECT_VERSION}" COMMAND ${brisance} --version)
+
+brisance_expect(params_all CODE 0 LABELS unit COMMAND ${brisance} params
+                MESSAGE "end_time.*output.interval.*fluid.euler.order.*solid.material.NAME.density.*solid.body\\[\\].shape.*coupling.cut_cells.small_cell")
+brisance_expect(params_one CODE 0 LABELS unit COMMAND ${brisance} params fluid.euler.order
+                MESSAGE "^fluid.euler.order +type: an integer, one of 1, 3, 5, 7, 9, 11; unit: -; default: 5")
+brisance_expect(params_unknown CODE 2 LABELS unit MESSAGE "no key fluid.eular; the nearest known key is fluid.euler"
+                COMMAND ${brisance} params fluid.eular)
+
+# scene_fault(name regex text): `run` and `check` of this scene end with code 2 and this message, and write nothing.
+function(scene_fault name regex text)
+  file(WRITE ${work}/${name}.toml "${text}")
+  brisance_expect(scene_${name} CODE 2 LABELS unit MESSAGE "${regex}" ABSENT ${work}/out_${name}
+                  COMMAND ${brisance} run ${work}/${name}.toml --out ${work}/out_${name})
+  brisance_expect(check_${name} CODE 2 LABELS unit MESSAGE "${regex}" COMMAND ${brisance} check ${work}/${name}.toml)
+endfunction()
+set(gas "end_time = \"1 ms\"\n[fluid]\nhigh = [\"1 m\"]\ncells = [16]\n")
+scene_fault(unknown_key "unknown_key.toml:6:1: unknown key fluid.eular; the nearest known key is fluid.euler "
+            "${gas}ambient = { density = 1 }\neular = { order = 5 }\n")
+scene_fault(wrong_unit "wrong_unit.toml:5:25: fluid.ambient.density = .1.2 kg.: 'kg' has the wrong dimension; expected a number in kg/m3"
+            "${gas}ambient = { density =   \"1.2 kg\" }\n")
+scene_fault(wrong_type "wrong_type.toml:5:19: fluid.euler.order = .five. is a string; expected an integer, one of 1, 3, 5, 7, 9, 11"
+            "${gas}euler = { order = \"five\" }\n")
+scene_fault(out_of_range "out_of_range.toml:5:17: fluid.euler.cfl = 1.5 is out of range; expected a number, above 0"
+            "${gas}euler = { cfl = 1.5 }\n")
+scene_fault(missing_key "missing_key.toml:2:1: fluid.cells is missing; expected" "end_time = 1\n[fluid]\nhigh = [1]\n")
+scene_fault(not_toml "not_toml.toml:1:[0-9]+: not valid TOML" "end_time = = 1\n")
+scene_fault(lonely_coupling ": .coupling. needs both .fluid. and .solid.; .solid. is missing" "${gas}[coupling]\n")
+brisance_expect(scene_missing_file CODE 2 LABELS unit MESSAGE "no/such.toml: the scene cannot be read: No such file"
+                ABSENT ${work}/out_missing COMMAND ${brisance} run no/such.toml --out ${work}/out_missing)
+file(WRITE ${work}/good.toml "${gas}")
+brisance_expect(scene_wrong_override CODE 2 LABELS unit ABSENT ${work}/out_override
+                MESSAGE "--set fluid.euler.order=4: fluid.euler.order = 4 is out of range; expected an integer, one of 1, 3"
+                COMMAND ${brisance} run ${work}/good.toml --out ${work}/out_override --set fluid.euler.order=4)
+brisance_expect(scene_fault.3ranks CODE 2 RANKS 3 LABELS parallel MESSAGE "^[^:]*brisance: error: [^:]*good.toml:2:1: [^:]*$|fluid.euler.order = 4 is"
+                COMMAND ${brisance} run ${work}/good.toml --out ${work}/out_override --set fluid.euler.order=4)
