@@ -1,0 +1,130 @@
+// brisance bench: what this machine does. Bandwidth and arithmetic first, then kernels and whole steps against them.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/base/errors.hpp"
+#include "coupling/geometry/bench.hpp"
+#include "drivers/commands.hpp"
+#include "fluid/flux/bench_sweep.hpp"
+
+namespace brisance::drivers {
+namespace {
+
+using Row = fluid::BenchRow;
+constexpr double not_counted = std::numeric_limits<double>::quiet_NaN();
+
+/// A row that is measured when it is asked for.
+struct Bench {
+  std::string name;
+  std::function<Row(fluid::MachineRoofs const&)> measure;
+};
+
+/// Scalar code that follows the geometry: neither its bytes nor its operations are the same from item to item.
+Row geometry_row(std::string const& name, coupling::GeometryRate rate) {
+  return {name, rate.items / rate.seconds, not_counted, not_counted, not_counted};
+}
+
+std::vector<Bench> all_benches() {
+  std::vector<Bench> benches = {{"stream.triad", fluid::bench_triad},
+                                {"arithmetic.multiply_add", fluid::bench_multiply_add}};
+  for (int dimension = 1; dimension <= 3; ++dimension)
+    for (int order = 1; order <= 11; order += 2)
+      benches.push_back({fmt::format("fluid.{}d.order{}", dimension, order),
+                         [=](auto const& roofs) { return fluid::bench_sweep(order, dimension, roofs); }});
+  benches.push_back({"coupling.cut_cells",
+                     [](auto const&) { return geometry_row("coupling.cut_cells", coupling::bench_cut_cells()); }});
+  benches.push_back({"coupling.closest_points", [](auto const&) {
+                       return geometry_row("coupling.closest_points", coupling::bench_closest_points());
+                     }});
+  return benches;
+}
+
+/// The benches whose name begins with one of `names`; all when there are none.
+std::vector<Bench> chosen_benches(std::vector<std::string> const& names) {
+  std::vector<Bench> const all = all_benches();
+  if (names.empty()) return all;
+  std::vector<std::string> known;
+  for (Bench const& bench : all) known.push_back(bench.name);
+  std::vector<Bench> chosen;
+  for (std::string const& name : names) {
+    std::size_t const before = chosen.size();
+    for (Bench const& bench : all)
+      if (bench.name.starts_with(name)) chosen.push_back(bench);
+    require(chosen.size() > before, Failure::scene,
+            "no bench row begins with " + name + "; the nearest is " + nearest(name, known) +
+                " (rows: " + joined(known) + ")");
+  }
+  return chosen;
+}
+
+/// The mean over the ranks, all of which measure at the same time: what a core does while the others are busy too.
+double mean(double value, parallel::Comm& comm) {
+  parallel::Bytes mine;
+  parallel::put(mine, value);
+  double sum = 0;
+  for (parallel::Bytes const& bytes : comm.all_gather(mine)) {
+    std::span<std::byte const> in(bytes);
+    sum += parallel::take<double>(in);
+  }
+  return sum / comm.size();
+}
+
+std::string cell(double value, char const* format) {
+  return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value);
+}
+
+void print_row(Row const& row) {
+  fmt::print("{:<26}{:>14}{:>14}{:>12}{:>12}{:>10}\n", row.name, cell(row.items_per_s / 1e6, "{:.4g}"),
+             cell(1e6 / row.items_per_s, "{:.4g}"), cell(row.bytes_per_item, "{:.0f}"),
+             cell(row.flops_per_item, "{:.0f}"), cell(100 * row.limit_share, "{:.1f} %"));
+  std::fflush(stdout);
+}
+
+void write_json(std::vector<Row> const& rows, std::string const& path, parallel::Comm& comm) {
+  std::int64_t failed = 0;
+  if (comm.rank() == 0) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (Row const& row : rows)  // a quantity that is not counted becomes null
+      list.push_back({{"name", row.name},
+                      {"items_per_s", row.items_per_s},
+                      {"bytes_per_item", row.bytes_per_item},
+                      {"flops_per_item", row.flops_per_item},
+                      {"limit_share", row.limit_share}});
+    std::ofstream file(path);
+    file << list.dump(2) << "\n";
+    file.close();
+    failed = file.fail();
+  }
+  comm.sum(std::span(&failed, 1));
+  require(failed == 0, Failure::system, path + ": cannot be written");
+}
+
+}  // namespace
+
+int run_bench(BenchOptions const& options, parallel::Comm& comm) {
+  std::vector<Bench> const benches = chosen_benches(options.names);
+  if (comm.rank() == 0)
+    fmt::print("{:<26}{:>14}{:>14}{:>12}{:>12}{:>10}\n", fmt::format("{} rank(s), per core", comm.size()), "Mitems/s",
+               "us/item", "bytes/item", "flops/item", "of limit");
+  comm.barrier();
+  fluid::MachineRoofs const roofs = fluid::measure_roofs();
+  std::vector<Row> rows;
+  for (Bench const& bench : benches) {
+    comm.barrier();
+    Row row = bench.measure(roofs);
+    row.items_per_s = mean(row.items_per_s, comm);
+    row.limit_share = mean(row.limit_share, comm);
+    if (comm.rank() == 0) print_row(row);
+    rows.push_back(row);
+  }
+  if (!options.json.empty()) write_json(rows, options.json, comm);
+  return 0;
+}
+
+}  // namespace brisance::drivers
