@@ -1,5 +1,5 @@
 brisance_test(fluid_sweep
-  SOURCES unit/fluid/flux/sweep_test.cpp unit/fluid/flux/low_order_test.cpp support/plain_osmp.cpp
+  SOURCES unit/fluid/flux/sweep_test.cpp unit/fluid/flux/low_order_test.cpp unit/fluid/flux/operations_test.cpp support/plain_osmp.cpp
   LINKS brisance::fluid
   LABELS unit)
 brisance_test(fluid_tubes

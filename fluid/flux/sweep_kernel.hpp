@@ -87,9 +87,7 @@ class BoxSweep {
     Index const bundles = as_they_stand ? box_.size[0] / width : 0;
     for (Index s = 0; s < box_.size[slow_]; ++s)
       for (Index b = 0; b < bundles; ++b) sweep_in_place(b * width, s);
-    Index const start = bundles * width, span = box_.size[fast_] - start, pencils = span * box_.size[slow_];
-    for (Index first = 0; first < pencils; first += width)
-      sweep_gathered(start, span, first, min(pencils - first, width));
+    sweep_gathered(bundles * width);
     for (int lane = 0; lane < width; ++lane)
       report_.signal_max = max(report_.signal_max, signal_.get(std::size_t(lane)));
     return report_;
@@ -110,39 +108,56 @@ class BoxSweep {
     take(data, lanes, [&](std::size_t lane) { return std::array{lanes.pencil[lane], slow}; });
   }
 
+  /// All pencils from column `start` on, through scratch memory. While one bundle is swept the next one is asked for.
+  void sweep_gathered(Index start) {
+    constexpr Index ghosts = Stencil<Order>::ghosts;
+    Index const span = box_.size[fast_] - start, pencils = span * box_.size[slow_];
+    std::ptrdiff_t const stride = box_.stride[along_];
+    thread_local std::vector<Pack> scratch;
+    Lanes next;
+    if (pencils > 0) next = fill_lanes(start, span, 0, min(pencils, width));
+    for (Index first = 0; first < pencils; first += width) {
+      Lanes const lanes = next;
+      if (first + width < pencils) next = fill_lanes(start, span, first + width, min(pencils - first - width, width));
+      auto const needed = static_cast<std::size_t>(lanes.n + 2 * ghosts) * 5;
+      if (scratch.size() < needed) scratch.resize(needed);
+      gather(u_, lanes, stride, -ghosts, lanes.n + ghosts, scratch.data());
+      Pack* const origin = scratch.data() + 5 * ghosts;
+      PencilData data{lanes.n, {}, {}, 5 * width, 5 * width, lanes.valid, lanes.counted_last, lanes.counted_high};
+      for (std::size_t q = 0; q < 5; ++q) {
+        data.in[q] = data.out[q] = reinterpret_cast<Real*>(origin + q);
+        data.next[q] = u_[q];
+      }
+      data.next_offset = next.offset.data();
+      take(data, lanes, [&](std::size_t lane) {
+        return std::array{start + lanes.pencil[lane] % span, lanes.pencil[lane] / span};
+      });
+      scatter(u_, lanes, stride, origin);
+    }
+  }
+
   /// Pencils first..first+count-1 of those numbered fast-first over `span` columns from `start`. When they are few,
   /// each is cut into parts that fill the lanes: the same bits, since a cell's value does not depend on where its
   /// pencil starts.
-  void sweep_gathered(Index start, Index span, Index first, Index count) {
+  Lanes fill_lanes(Index start, Index span, Index first, Index count) const {
     Index const parts = min(width / count, n_ < 2 ? 1 : n_ / 2), length = (n_ + parts - 1) / parts;
     Index const shorter = length * parts - n_;  // parts of one cell less; their last cell is also the next part's first
     Lanes lanes;
     lanes.n = length;
-    std::ptrdiff_t const stride = box_.stride[along_];
     for (Index lane = 0; lane < width; ++lane) {
       auto const l = static_cast<std::size_t>(lane);
       Index const used = min(lane, count * parts - 1), part = used % parts;
       lanes.pencil[l] = first + used / parts;
       lanes.first[l] = part * length - min(part, shorter);
-      lanes.offset[l] = offset(start + lanes.pencil[l] % span, lanes.pencil[l] / span) + lanes.first[l] * stride;
+      lanes.offset[l] =
+          offset(start + lanes.pencil[l] % span, lanes.pencil[l] / span) + lanes.first[l] * box_.stride[along_];
       if (lane >= count * parts) continue;
       lanes.valid |= 1u << lane;
       if (part >= shorter) lanes.counted_last |= 1u << lane;
       if (part == 0) lanes.counted_low |= 1u << lane;
       if (part == parts - 1) lanes.counted_high |= 1u << lane;
     }
-    constexpr Index ghosts = Stencil<Order>::ghosts;
-    thread_local std::vector<Pack> scratch;
-    auto const needed = static_cast<std::size_t>(length + 2 * ghosts) * 5;
-    if (scratch.size() < needed) scratch.resize(needed);
-    gather(u_, lanes, stride, -ghosts, length + ghosts, scratch.data());
-    Pack* const origin = scratch.data() + 5 * ghosts;
-    PencilData data{length, {}, {}, 5 * width, 5 * width, lanes.valid, lanes.counted_last, lanes.counted_high};
-    for (std::size_t q = 0; q < 5; ++q) data.in[q] = data.out[q] = reinterpret_cast<Real*>(origin + q);
-    take(data, lanes, [&](std::size_t lane) {
-      return std::array{start + lanes.pencil[lane] % span, lanes.pencil[lane] / span};
-    });
-    scatter(u_, lanes, stride, origin);
+    return lanes;
   }
 
   /// Sweeps a bundle and adds what it saw to the report of the box; `place(lane)` gives the pencil's (fast, slow)
