@@ -47,7 +47,7 @@ std::vector<Bench> all_benches() {
 
 /// The benches whose name begins with one of `names`; all when there are none.
 std::vector<Bench> chosen_benches(std::vector<std::string> const& names) {
-  std::vector<Bench> const all = all_benches();
+  std::vector<Bench> all = all_benches();
   if (names.empty()) return all;
   std::vector<std::string> known;
   for (Bench const& bench : all) known.push_back(bench.name);
