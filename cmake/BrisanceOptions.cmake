@@ -13,7 +13,8 @@ option(BRISANCE_NATIVE "Compile for the processor of this machine" ON)
 option(BRISANCE_WERROR "Treat warnings as errors" OFF)
 
 add_library(brisance_flags INTERFACE)
-target_compile_options(brisance_flags INTERFACE -fno-math-errno -ffp-contract=off -Wall -Wextra -Wconversion)
+target_compile_options(brisance_flags INTERFACE -fno-math-errno -ffp-contract=off -Wall -Wextra -Wconversion
+                       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # GCC 12 raises it for std::string + (PR 105329)
 if(BRISANCE_NATIVE)
   target_compile_options(brisance_flags INTERFACE -march=native)
 else()
