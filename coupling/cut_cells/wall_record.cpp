@@ -10,6 +10,7 @@ namespace brisance::coupling {
 void WallRecord::set_grid(fluid::Grid const& grid) {
   grid_ = &grid;
   lattice_ = {grid.dimension, grid.low, grid.spacing};
+  map_.cover({}, uncut_fluid);
   cell_volume_ = grid.cell_volume();
   for (int d = 0; d < 3; ++d) face_area_[d] = grid.face_area(d);
 }
