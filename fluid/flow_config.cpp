@@ -116,6 +116,7 @@ int dimension(FlowConfig const& config) {
 }
 
 Grid make_grid(FlowConfig const& config) {
+  check(config);
   Grid grid;
   grid.dimension = dimension(config);
   grid.low = {0, 0, 0};

@@ -100,7 +100,7 @@ struct FlowConfig {
 /// Number of directions with more than one cell; trailing ones in `cells` are absent directions.
 int dimension(FlowConfig const& config);
 
-/// The grid and its blocks.  Errors: scene errors for an empty box, sides that disagree about periodicity, too few
+/// The grid and its blocks.  Errors: those of check(), an empty box, sides that disagree about periodicity, too few
 /// cells.
 Grid make_grid(FlowConfig const& config);
 

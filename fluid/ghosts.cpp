@@ -104,20 +104,18 @@ void Ghosts::build(Grid const& grid, std::vector<int> const& owner, int directio
   for (Partner& p : exchange.partners) {
     p.out.resize(doubles(p.sends));
     p.in.resize(doubles(p.receives));
+    exchange.sends.push_back({p.rank, std::as_bytes(std::span(p.out))});
+    exchange.receives.push_back({p.rank, std::as_writable_bytes(std::span(p.in))});
   }
 }
 
 void Ghosts::start(int direction) {
   Exchange& exchange = exchanges_[static_cast<std::size_t>(direction)];
-  std::vector<parallel::Comm::Send> sends;
-  std::vector<parallel::Comm::Receive> receives;
   for (Partner& p : exchange.partners) {
     Real* out = p.out.data();
     for (Slab const& s : p.sends) out = pack(blocks_[s.block], inner_slab(blocks_[s.block], direction, s.side), out);
-    sends.push_back({p.rank, std::as_bytes(std::span(p.out))});
-    receives.push_back({p.rank, std::as_writable_bytes(std::span(p.in))});
   }
-  if (!sends.empty()) pending_ = comm_.start(sends, receives, direction);
+  if (!exchange.sends.empty()) pending_ = comm_.start(exchange.sends, exchange.receives, direction);
   for (Copy const& c : exchange.copies) {
     Block const& from = blocks_[c.from];
     copy(from, inner_slab(from, direction, 1 - c.side), blocks_[c.to], ghost_slab(blocks_[c.to], direction, c.side));

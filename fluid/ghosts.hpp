@@ -47,6 +47,8 @@ class Ghosts {
     std::vector<Copy> copies;
     std::vector<Slab> domain;
     std::vector<Partner> partners;
+    std::vector<parallel::Comm::Send> sends;  // the buffers of the partners
+    std::vector<parallel::Comm::Receive> receives;
     std::vector<std::size_t> ready, waiting;
   };
   Exchange const& exchange(int direction) const { return exchanges_[static_cast<std::size_t>(direction)]; }

@@ -158,7 +158,6 @@ void fill(Flow& flow, std::function<State(CellIndex)> const& state) {
 }
 
 void fill(Flow& flow, FlowConfig const& config, FluidVolume const& volume) {
-  check(config);
   IdealGas const& gas = flow.gas();
   State const ambient = gas.conserved(config.ambient.density, config.ambient.velocity, config.ambient.pressure);
   std::vector<State> inside;

@@ -1,6 +1,6 @@
 brisance_test(fluid_domain_unit
   SOURCES unit/fluid/grid/grid_test.cpp unit/fluid/grid/block_test.cpp unit/fluid/boundary/boundaries_test.cpp
-          unit/fluid/flow_config_test.cpp unit/fluid/time_step_test.cpp
+          unit/fluid/flow_config_test.cpp unit/fluid/flow_test.cpp unit/fluid/time_step_test.cpp
   LINKS brisance::fluid
   LABELS unit)
 brisance_test(fluid_ghosts SOURCES unit/fluid/ghosts_test.cpp LINKS brisance::fluid RANKS 1 2 3 4 LABELS unit)
@@ -13,5 +13,10 @@ brisance_test(fluid_blast_bits SOURCES parallel/fluid/blast_test.cpp LINKS brisa
 brisance_test(fluid_vortex SOURCES verification/fluid/vortex_test.cpp LINKS brisance::fluid LABELS verification)
 brisance_test(fluid_conservation
   SOURCES verification/fluid/conservation_test.cpp
+  LINKS brisance::fluid
+  LABELS verification)
+brisance_test(fluid_reflection SOURCES verification/fluid/reflection_test.cpp LINKS brisance::fluid LABELS verification)
+brisance_test(fluid_spherical_blast
+  SOURCES verification/fluid/spherical_blast_test.cpp
   LINKS brisance::fluid
   LABELS verification)
