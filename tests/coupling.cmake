@@ -1,0 +1,2 @@
+file(GLOB coupling_verification CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/verification/coupling/*_test.cpp)
+brisance_test(coupling_verification SOURCES ${coupling_verification} LINKS brisance::drivers LABELS verification)
