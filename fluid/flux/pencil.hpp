@@ -78,7 +78,7 @@ class Pencil {
     for (V& x : faces_[newest - 1].low_flux)
       x = V(0.0);  // of the first face's missing neighbour: no result depends on it
     Cell<V> left, right;
-    V before[5];
+    V before[5] = {V(0.0), V(0.0), V(0.0), V(0.0), V(0.0)};
     fetch(data, runs, -ghosts, left, k, report);
     for (Index f = -reach; f < reach; ++f) {
       fetch(data, runs, f, right, k, report);
