@@ -45,6 +45,18 @@ void for_neighbourhood(fluid::Grid const& grid, CellIndex centre, Index reach, V
       for (Index i = -reach; i <= reach; ++i) visit(CellIndex{centre[0] + i, centre[1] + j, centre[2] + k});
 }
 
+/// Calls visit(c) for the cells at exactly `distance` cells (largest of the directions) from `centre`, in fixed order.
+template <class Visit>
+void for_shell(fluid::Grid const& grid, CellIndex centre, Index distance, Visit&& visit) {
+  Index const ry = grid.dimension > 1 ? distance : 0, rz = grid.dimension > 2 ? distance : 0;
+  for (Index k = -rz; k <= rz; ++k)
+    for (Index j = -ry; j <= ry; ++j) {
+      bool const whole_row = distance == 0 || (rz > 0 && std::abs(k) == rz) || (ry > 0 && std::abs(j) == ry);
+      for (Index i = -distance; i <= distance; i += whole_row ? 1 : 2 * distance)
+        visit(CellIndex{centre[0] + i, centre[1] + j, centre[2] + k});
+    }
+}
+
 /// The cell itself, its periodic image, or nearest cell inside.
 inline CellIndex into_domain(fluid::Grid const& grid, CellIndex c) {
   for (std::size_t d = 0; d < 3; ++d) {

@@ -42,4 +42,26 @@ class CellMap {
   std::vector<T> data_;
 };
 
+/// A set of cells: each is taken once, in any order; a mark per cell keeps it cheap.
+class CellSet {
+ public:
+  /// Empties the set and makes room for the cells of `range`.
+  void start(CellBox const& range) {
+    for (CellIndex const& c : cells_) marks_.set(c, 0);
+    cells_.clear();
+    if (!contains(marks_.range(), range)) marks_.cover(range, 0);
+  }
+  /// Expects: c within the range.
+  void insert(CellIndex c) {
+    if (marks_.at(c)) return;
+    marks_.set(c, 1);
+    cells_.push_back(c);
+  }
+  std::vector<CellIndex> const& cells() const { return cells_; }
+
+ private:
+  CellMap<std::uint8_t> marks_;
+  std::vector<CellIndex> cells_;
+};
+
 }  // namespace brisance::coupling

@@ -183,11 +183,20 @@ void CutCells::mix() {
     return std::any_of(near.begin(), near.end(), [&](CellBox const& b) { return b.holds(c); });
   };
   std::vector<GlobalId> ids;
+  CellBox around = near.front();
+  for (CellBox const& b : near)
+    for (std::size_t d = 0; d < 3; ++d) {
+      around.low[d] = std::max(0, std::min(around.low[d], b.low[d]));
+      around.high[d] = std::min(grid.cells[d], std::max(around.high[d], b.high[d]));
+    }
+  near_.start(around);
   for (WallRecord const* r : {&record_, &next_})
     for (CutCell const& cut : r->geometry.cells)
       for_neighbourhood(grid, cut.cell, 2, [&](CellIndex c) {
-        if (grid.inside(c) && within(c)) ids.push_back(grid.cell_id(c));
+        if (around.holds(c)) near_.insert(c);
       });
+  for (CellIndex const& c : near_.cells())
+    if (within(c)) ids.push_back(grid.cell_id(c));
   for (Content const& c : contents_) ids.push_back(c.cell);
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());

@@ -76,6 +76,7 @@ class CutCells : public Effect {
   std::vector<Transfer> transfers_;
   std::vector<Content> moved_contents_;
   StateGather swept_states_;
+  CellSet near_;  ///< work space of mix
   Verdict health_;
 
   // increments for the ledger since the last audit

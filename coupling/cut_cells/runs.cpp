@@ -93,13 +93,16 @@ void WallSweeper::find_solid(Block const& block, WallBlock& wall, std::vector<Gl
   fluid::Grid const& grid = flow_.grid();
   CellIndex const first = block.first();
   CellBox const own = box_of(block);
-  std::vector<GlobalId> near;
+  near_.start(own);
+  CellBox const around = grown(grid, own, 2);
   for (CutCell const& cut : record_->geometry.cells)
-    for_neighbourhood(grid, cut.cell, 2, [&](CellIndex c) {
-      if (own.holds(c) && record_->solid(c)) near.push_back(grid.cell_id(c));
-    });
+    if (around.holds(cut.cell))
+      for_neighbourhood(grid, cut.cell, 2, [&](CellIndex c) {
+        if (own.holds(c) && record_->solid(c)) near_.insert(c);
+      });
+  std::vector<GlobalId> near;
+  for (CellIndex const& c : near_.cells()) near.push_back(grid.cell_id(c));
   std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
   for (GlobalId const id : near) {
     CellIndex const c = cell_from_id(grid, id);
     MirrorCell const m = mirror(c, -1, 0, wanted);

@@ -63,12 +63,15 @@ Projection WallRecord::project(CellIndex c, int direction, int side) const {
   Piece const* nearest = nullptr;
   Nearest found;
   for (Index shell = 0; shell <= reach; ++shell) {
-    for_neighbourhood(*grid_, c, shell, [&](CellIndex n) {
-      Index distance = 0;
-      for (std::size_t d = 0; d < 3; ++d) distance = std::max(distance, std::abs(n[d] - c[d]));
-      if (distance != shell) return;
+    for_shell(*grid_, c, shell, [&](CellIndex n) {
       Index const i = cut_index(n);
       if (i < 0) return;
+      Real gap = 0;  // squared distance to the cell: a lower bound for its pieces
+      for (int d = 0; d < grid_->dimension; ++d) {
+        auto const at = static_cast<std::size_t>(d);
+        gap += square(max(0, std::abs(n[at] - c[at]) - 0.5 - 1e-9) * grid_->spacing[d]);
+      }
+      if (gap > best) return;
       for (Index f = cut(i).first_piece; f < cut(i).last_piece; ++f) {
         Piece const& piece = geometry.pieces[static_cast<std::size_t>(f)];
         if (direction >= 0) {

@@ -83,6 +83,7 @@ class WallSweeper : public fluid::BlockSweeper {
   WallRecord const* record_ = nullptr;
   std::map<Index, WallBlock> blocks_;
   StateGather images_;
+  CellSet near_;
   std::vector<Real> scratch_u_, scratch_result_, scratch_flux_, scratch_pressure_;
   std::vector<std::uint8_t> scratch_order_;
 };
