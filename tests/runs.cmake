@@ -1,0 +1,40 @@
+# Whole runs of the program: equal bits on any number of ranks and after restart, and what it says when a run cannot go on.
+set(program $<TARGET_FILE:brisance>)
+set(runs ${CMAKE_CURRENT_BINARY_DIR}/runs)
+set(scenes ${PROJECT_SOURCE_DIR}/jobs/scenes)
+
+# brisance_same_digest(name SCENE steps [options of run])
+function(brisance_same_digest name scene steps)
+  add_test(NAME same_digest.${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/same_digest.sh ${program} ${runs}/${name}
+                                            ${steps} ${scene} ${ARGN})
+  set_tests_properties(same_digest.${name} PROPERTIES LABELS "parallel;restart" PROCESSORS 2 TIMEOUT 1500)
+endfunction()
+brisance_same_digest(explosion-cylinder ${scenes}/explosion-cylinder.toml 60)
+brisance_same_digest(explosion-box-3d ${scenes}/explosion-box-3d.toml 24 --set fluid.block=24)
+brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40)
+brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
+
+# Faults of bodies and ranks: scene errors, nothing written.
+foreach(fault overlapping-bodies non-convex-cells)
+  set(scene ${PROJECT_SOURCE_DIR}/tests/support/scenes/${fault}.toml)
+  set(says_overlapping-bodies "bodies? .*overlap")
+  set(says_non-convex-cells "not convex")
+  brisance_expect(scene_${fault} CODE 2 LABELS unit MESSAGE "${says_${fault}}" ABSENT ${runs}/${fault}
+                  COMMAND ${program} run ${scene} --out ${runs}/${fault})
+endforeach()
+brisance_expect(scene_more_ranks_than_blocks CODE 2 RANKS 3 LABELS parallel ABSENT ${runs}/ranks
+                MESSAGE "explosion-cylinder.toml:[0-9]+:[0-9]+: 3 ranks, but the scene has only 2 fluid blocks"
+                COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/ranks --set fluid.block=300)
+brisance_expect(check_explosion-cylinder CODE 0 LABELS unit MESSAGE "coupling.cut_cells +on.*180000 cells.*50 particles, 50 links"
+                COMMAND ${program} check ${scenes}/explosion-cylinder.toml --ranks 4)
+brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity +off: .*416 particles"
+                COMMAND ${program} check ${scenes}/explosion-box-3d.toml --ranks 2)
+
+# Truncated checkpoints and a full disk.
+add_test(NAME truncated_checkpoint COMMAND ${PROJECT_SOURCE_DIR}/tests/support/truncated_checkpoint.sh ${program}
+                                           ${runs}/truncated ${scenes}/explosion-cylinder.toml)
+add_test(NAME full_disk COMMAND ${PROJECT_SOURCE_DIR}/tests/support/full_disk.sh ${program} ${runs}/full
+                                ${scenes}/explosion-cylinder.toml)
+add_test(NAME stop_by_signal COMMAND ${PROJECT_SOURCE_DIR}/tests/support/stop_by_signal.sh ${program} ${runs}/signal
+                                     ${scenes}/explosion-cylinder.toml)
+set_tests_properties(truncated_checkpoint full_disk stop_by_signal PROPERTIES LABELS restart TIMEOUT 300)

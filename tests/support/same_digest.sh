@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# same_digest.sh PROGRAM WORK STEPS SCENE [options of run]: the scene ends with the same state_digest on 1, 2, 3 and 4 ranks,
+# and when it is stopped half way and restarted on another number of ranks; blocks of another size give the same bits too.
+set -u
+program=$1 work=$2 steps=$3 scene=$4
+shift 4
+launch="mpirun --allow-run-as-root --oversubscribe --mca mpi_yield_when_idle 1 -n"
+rm -rf "$work"
+mkdir -p "$work"
+failed=0
+digest() { sed -n 's/.*"state_digest": "\(.*\)".*/\1/p' "$1/summary.json"; }
+run() { # run RANKS NAME COMMAND...
+  local ranks=$1 name=$2
+  shift 2
+  if ! $launch "$ranks" "$program" "$@" --quiet >"$work/$name.log" 2>&1; then
+    echo "FAILED: $name"
+    cat "$work/$name.log"
+    exit 1
+  fi
+}
+check() { # check NAME DIRECTORY
+  local got
+  got=$(digest "$2")
+  printf '%-28s %s\n' "$1" "$got"
+  if [[ -z $expected || $got != "$expected" ]]; then
+    echo "FAILED: $1: expected $expected, got $got"
+    failed=1
+  fi
+}
+run 1 one run "$scene" --out "$work/one" --steps "$steps" "$@"
+expected=$(digest "$work/one")
+check "1 rank" "$work/one"
+for n in 2 3 4; do
+  run $n ranks$n run "$scene" --out "$work/ranks$n" --steps "$steps" "$@"
+  check "$n ranks" "$work/ranks$n"
+done
+half=$((steps / 2))
+for pair in "1 3" "2 1" "4 2"; do
+  read -r before after <<<"$pair"
+  name=restart${before}to$after
+  run "$before" "$name-a" run "$scene" --out "$work/$name" --steps "$half" "$@"
+  run "$after" "$name-b" restart "$work/$name" --steps "$steps"
+  check "restart $before -> $after ranks" "$work/$name"
+done
+exit $failed
