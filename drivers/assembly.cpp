@@ -138,8 +138,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
         std::make_unique<coupling::CutCells>(*scene.coupling->cut_cells, *w.flow, *w.solid, *w.surface,
                                              w.flow->gas().conserved(air.density, air.velocity, air.pressure), comm);
   }
-  if (w.euler && w.cut_cells)
-    w.euler->set_fluid_volume([cut = w.cut_cells.get()](fluid::CellIndex c) { return cut->fluid_volume(c); });
+  if (w.euler && w.cut_cells) w.euler->set_fluid_volume(w.cut_cells->fluid_volumes());
 
   if (w.euler) w.euler->join(w.plan);
   if (w.dynamics) w.dynamics->join(w.plan);
@@ -152,12 +151,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
 
 void start(World& w, Scene const& scene) {
   if (w.cut_cells) w.cut_cells->cut_initial_geometry();
-  if (w.flow) {
-    if (w.cut_cells)
-      fluid::fill(*w.flow, *scene.fluid, [&](fluid::CellIndex c) { return w.cut_cells->fluid_volume(c); });
-    else
-      fluid::fill(*w.flow, *scene.fluid);
-  }
+  if (w.flow) fluid::fill(*w.flow, *scene.fluid, w.cut_cells ? w.cut_cells->fluid_volumes() : fluid::FluidVolume{});
   if (w.cut_cells) w.cut_cells->start();
   if (w.dynamics) w.dynamics->start();
   w.simulation->audit();

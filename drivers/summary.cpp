@@ -23,9 +23,8 @@ double imbalance(std::vector<double> const& per_rank) {
 
 void update_extrema(World& world, RunState& run) {
   if (!world.flow) return;
-  fluid::FluidVolume volume;
-  if (world.cut_cells) volume = [&](fluid::CellIndex c) { return world.cut_cells->fluid_volume(c); };
-  fluid::Extremes const e = fluid::extremes(*world.flow, volume);
+  fluid::Extremes const e =
+      fluid::extremes(*world.flow, world.cut_cells ? world.cut_cells->fluid_volumes() : fluid::FluidVolume{});
   std::array<double, 2> low{e.density_min, e.pressure_min};
   std::array<double, 1> high{e.mach_max};
   world.comm->min(low);

@@ -46,7 +46,7 @@ void Euler::join(Plan& plan) {
 }
 
 Real Euler::acoustic_limit(Clock const& clock) {
-  std::array<Real, 3> const speeds = volume_ ? signal_speeds(flow_, volume_) : signal_speeds(flow_);
+  std::array<Real, 3> const speeds = signal_speeds(flow_, volume_);
   // The slow start is part of the rule; the minimum over ranks is taken by the simulation.
   return acoustic_time_step(flow_.grid(), speeds, courant_number(flow_.grid().dimension, clock.step, config_.cfl));
 }

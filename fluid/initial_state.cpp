@@ -77,7 +77,9 @@ class Balloon {
   }
 
  private:
-  Real volume(CellIndex c) const { return volume_ ? volume_(c) : flow_.grid().cell_volume(); }
+  Real volume(CellIndex c) const {
+    return volume_.cuts(flow_.grid().block_of(c)) ? volume_(c) : flow_.grid().cell_volume();
+  }
   template <class Visit>
   void visit(Block& block, Visit&& act) {
     Real const reach = whole_share_ > 0 ? 0 : radius_;

@@ -93,8 +93,8 @@ std::array<Real, 3> signal_speeds(Flow const& flow, CellMask const& skip) {
 }
 
 std::array<Real, 3> signal_speeds(Flow const& flow, FluidVolume const& volume) {
-  if (!volume) return signal_speeds(flow);
   return largest_speeds(flow, [&](RowMax& best, Block const& block, auto const& row, Index j, Index k) {
+    if (!volume.cuts(block.id())) return best.row(row, block.size()[0], flow.gas());
     CellIndex const first = block.first();
     for (Index i = 0; i < block.size()[0]; ++i)
       if (volume({first[0] + i, first[1] + j, first[2] + k}) > 0) best.cell(row, i, flow.gas());

@@ -36,14 +36,21 @@ Sums block_sums(Block const& block, Weight const& weight) {
   return sums;
 }
 
+/// Calls visit(cell, state, fluid volume) for the cells of this rank that hold fluid.
 template <class Visit>
-void for_cells(Flow const& flow, Visit&& visit) {
+void for_cells(Flow const& flow, FluidVolume const& volume, Visit&& visit) {
+  Real const whole = flow.grid().cell_volume();
   for (Block const& block : flow.blocks()) {
     auto const [nx, ny, nz] = block.size();
     CellIndex const first = block.first();
+    bool const cut = volume.cuts(block.id());
     for (Index k = 0; k < nz; ++k)
       for (Index j = 0; j < ny; ++j)
-        for (Index i = 0; i < nx; ++i) visit(CellIndex{first[0] + i, first[1] + j, first[2] + k}, block.load(i, j, k));
+        for (Index i = 0; i < nx; ++i) {
+          CellIndex const c{first[0] + i, first[1] + j, first[2] + k};
+          Real const v = cut ? volume(c) : whole;
+          if (v > 0) visit(c, block.load(i, j, k), v);
+        }
   }
 }
 
@@ -53,7 +60,7 @@ LocalTotals local_totals(Flow const& flow, FluidVolume const& volume) {
   LocalTotals sums;
   for (Block const& block : flow.blocks()) {
     Sums part;
-    if (volume) {
+    if (volume.cuts(block.id())) {
       part = block_sums(block, volume);
     } else {
       part = block_sums(block, [](CellIndex) { return 1.0; });
@@ -79,8 +86,8 @@ Extremes extremes(Flow const& flow, FluidVolume const& volume) {
   IdealGas const& gas = flow.gas();
   constexpr Real infinite = std::numeric_limits<Real>::infinity();
   Extremes e{infinite, infinite, 0};
-  for_cells(flow, [&](CellIndex c, State const& u) {
-    if (gas.vacuum(u) || (volume && !(volume(c) > 0))) return;
+  for_cells(flow, volume, [&](CellIndex, State const& u, Real) {
+    if (gas.vacuum(u)) return;
     e.density_min = min(e.density_min, u[0]);
     e.pressure_min = min(e.pressure_min, gas.pressure(u));
     Real const speed = std::sqrt(u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
@@ -91,8 +98,8 @@ Extremes extremes(Flow const& flow, FluidVolume const& volume) {
 
 void add_cells(parallel::Digest& digest, Flow const& flow, FluidVolume const& volume) {
   Grid const& grid = flow.grid();
-  for_cells(flow, [&](CellIndex c, State const& u) {
-    Real const bits[6] = {u[0], u[1], u[2], u[3], u[4], volume ? volume(c) : grid.cell_volume()};
+  for_cells(flow, volume, [&](CellIndex c, State const& u, Real v) {
+    Real const bits[6] = {u[0], u[1], u[2], u[3], u[4], v};
     digest.add(cell_kind, grid.cell_id(c), bits);
   });
 }

@@ -33,7 +33,7 @@ Extremes extremes(Flow const& flow, FluidVolume const& volume = {});
 
 /// Kind of a cell in the state digest.
 constexpr std::uint32_t cell_kind = 1;
-/// Adds the cells of this rank: their five conserved means and fluid volume. Not collective.
+/// Adds the cells of this rank that hold fluid: their five conserved means and fluid volume. Not collective.
 void add_cells(parallel::Digest& digest, Flow const& flow, FluidVolume const& volume = {});
 
 }  // namespace brisance::fluid

@@ -8,6 +8,7 @@
 #include "coupling/cut_cells/wall_surface.hpp"
 #include "coupling/cut_cells/wall_sweeper.hpp"
 #include "coupling/geometry/swept.hpp"
+#include "fluid/fluid_volume.hpp"
 
 namespace brisance::coupling {
 
@@ -25,6 +26,10 @@ class CutCells : public Effect {
 
   /// Fluid volume of a cell at the present time, m3; 0 in solid cells.
   Real fluid_volume(CellIndex c) const { return record_.solid(c) ? 0 : record_.volume(c); }
+  /// The same as the loops over the cells of the flow want it.
+  fluid::FluidVolume fluid_volumes() const {
+    return {[this](CellIndex c) { return fluid_volume(c); }, [this](Index block) { return sweeper_.handles(block); }};
+  }
   GlobalId cut_cell_count() const;  ///< of this rank's blocks
   /// Seconds spent in geometry (clipping, fractions, swept volumes) and cut cells handled, for the rates of the
   /// summary.

@@ -1,6 +1,7 @@
 #include "coupling/cut_cells/wall_sweeper.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "fluid/flux/low_order.hpp"
@@ -32,6 +33,24 @@ std::uint8_t order_within(int scene_order, Index room) {
 /// Components of a state in sweep coordinates: the momentum normal to the faces comes first.
 constexpr std::array<std::array<std::size_t, 5>, 3> sweep_component{
     {{0, 1, 2, 3, 4}, {0, 2, 1, 3, 4}, {0, 3, 2, 1, 4}}};
+
+/// Health bits of a full cell after a sweep, with the bands of theory/fluid.md 4.4.
+std::uint64_t judge(State const& u, fluid::IdealGas const& gas) {
+  auto const bit = [](fluid::Health h) { return static_cast<std::uint64_t>(h); };
+  if (!(std::abs(u[0]) < 1e300) || !(std::abs(u[4]) < 1e300)) return bit(fluid::Health::not_finite);
+  if (!(u[0] >= -1e-3 * gas.vacuum_density)) return bit(fluid::Health::negative_density);
+  Real const twice = 2 * u[0] * u[4] - (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]);  // 2 rho phi
+  if (!(twice >= -2e-13 * std::abs(u[0] * u[4]))) return bit(fluid::Health::negative_energy);
+  return 0;
+}
+
+/// Is sigma (|u| + c) above 1 before the sweep? Without root or division: gamma p rho against (rho / sigma - |m|)^2.
+std::uint64_t courant(Real density, Real momentum, Real pressure, Real sigma, fluid::IdealGas const& gas) {
+  if (!(pressure > 0)) return 0;  // vacuum
+  Real const room = density / sigma - std::abs(momentum);
+  bool const bad = room < 0 || gas.gamma * pressure * density > room * room;
+  return bad ? static_cast<std::uint64_t>(fluid::Health::courant) : 0;
+}
 
 }  // namespace
 
@@ -147,7 +166,15 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
         State s;
         for (std::size_t q = 0; q < 5; ++q) s[component[q]] = scratch_result_[(row * 5 + q) * width + lane];
         block.store(at[0], at[1], at[2], s);
-        wall.pressure[d][wall.cell(at[0], at[1], at[2])] = scratch_pressure_[row * width + lane];
+        Real const pressure = scratch_pressure_[row * width + lane];
+        wall.pressure[d][wall.cell(at[0], at[1], at[2])] = pressure;
+        CellIndex const first = block.first();
+        if (record_->cut_index({first[0] + at[0], first[1] + at[1], first[2] + at[2]}) >= 0)
+          continue;  // provisional: judged after merging
+        Real const* const old = u0 + row * 5 * width + lane;
+        std::uint64_t const health = judge(s, flow_.gas()) | courant(old[0], old[width], pressure, sigma, flow_.gas());
+        if (health != 0 && total.health == 0) total.where = at;
+        total.health |= health;
       }
     }
   }

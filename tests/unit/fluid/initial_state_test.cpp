@@ -152,7 +152,7 @@ TEST(Charge, IsExactOverFluidVolumes) {
   charge.radius = 0.35;
   charge.mass = 3;
   config.charge = {charge};
-  FluidVolume const volume = [](CellIndex c) { return c[0] < 14 ? 0 : c[0] == 14 ? 0.0037 : 0.01; };
+  FluidVolume const volume{[](CellIndex c) { return c[0] < 14 ? 0 : c[0] == 14 ? 0.0037 : 0.01; }};
   Filled const f = filled(config, volume);
   EXPECT_NEAR(f.totals.energy - 101325 / 0.4 * f.volume, 3 * tnt, 1e-12 * 3 * tnt);
   EXPECT_THROW(filled(config, [](CellIndex c) { return c[0] < 25 ? 0 : 0.01; }), Error);
