@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""Pictures of a run: pressure and the bodies at four times, from fields/*.h5 and solid/*.h5.
+
+usage: picture.py DIR OUT.png [--plane y=1.6] [--window x0 x1 y0 y1]
+Needs python3-h5py, python3-numpy, python3-matplotlib (not needed to build or run Brisance).
+"""
+import argparse
+import glob
+import os
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import PolyCollection
+
+
+def read_scene(directory):
+    """Corners of the grid, from the resolved scene."""
+    import tomllib
+
+    with open(os.path.join(directory, "scene.resolved.toml"), "rb") as file:
+        fluid = tomllib.load(file)["fluid"]
+    return np.array(fluid["low"], float), np.array(fluid["high"], float)
+
+
+def polygons(path, axes):
+    """Faces of the particles, projected on two axes."""
+    with h5py.File(path) as file:
+        points, topology = file["points"][:], file["topology"][:].ravel()
+    out, at = [], 0
+    while at < len(topology):
+        n = topology[at + 1]
+        out.append(points[topology[at + 2 : at + 2 + n]][:, axes])
+        at += 2 + n
+    return out
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("directory")
+    parser.add_argument("picture")
+    parser.add_argument("--plane", help="cut a 3D run: x=, y= or z= a position in m")
+    parser.add_argument("--window", nargs=4, type=float)
+    parser.add_argument("--scale", type=float, default=1, help="displacement of the bodies times this")
+    o = parser.parse_args()
+    low, high = read_scene(o.directory)
+    frames = sorted(glob.glob(os.path.join(o.directory, "fields", "*.h5")))
+    chosen = [frames[round(i)] for i in np.linspace(1, len(frames) - 1, 4)]
+    cut_axis, position = ("xyz".index(o.plane[0]), float(o.plane[2:])) if o.plane else (2, None)
+    axes = [a for a in range(3) if a != cut_axis]
+    figure, panels = plt.subplots(2, 2, figsize=(9, 6.4), layout="constrained")
+    values = []
+    for path in chosen:
+        with h5py.File(path) as file:
+            p = file["pressure"][:]
+            s = file["solid_fraction"][:] if "solid_fraction" in file else np.zeros_like(p)
+            time = file.attrs["time"] if "time" in file.attrs else 0.0
+        index = 0
+        if position is not None:
+            n = p.shape[2 - cut_axis]
+            index = int((position - low[cut_axis]) / (high[cut_axis] - low[cut_axis]) * n)
+        values.append((np.take(p, index, 2 - cut_axis), np.take(s, index, 2 - cut_axis), float(np.ravel(time)[0])))
+    everything = np.concatenate([np.log10(v[0][v[1] < 0.5] / 1e5).ravel() for v in values])
+    lo, hi = everything.min(), everything.max()
+    first = sorted(glob.glob(os.path.join(o.directory, "solid", "*.h5")))[0]
+    rest = polygons(first, axes)
+    for panel, path, (p, s, time) in zip(panels.flat, chosen, values):
+        field = np.ma.masked_where(s > 0.999, np.log10(p / 1e5))
+        image = panel.imshow(field, origin="lower", vmin=lo, vmax=hi, cmap="inferno", interpolation="nearest",
+                             extent=(low[axes[0]], high[axes[0]], low[axes[1]], high[axes[1]]))
+        now = polygons(path.replace("/fields/", "/solid/"), axes)
+        moved = [a + o.scale * (b - a) for a, b in zip(rest, now)]
+        panel.add_collection(PolyCollection(moved, facecolors="0.75", edgecolors="0.2", linewidths=0.3))
+        if o.window:
+            panel.set_xlim(o.window[:2])
+            panel.set_ylim(o.window[2:])
+        panel.set_title(f"{1e3 * time:.2f} ms", fontsize=9)
+        panel.tick_params(labelsize=7)
+    figure.colorbar(image, ax=panels, label="log10(pressure / bar)", shrink=0.8)
+    figure.savefig(o.picture, dpi=90)
+
+
+if __name__ == "__main__":
+    main()
