@@ -34,7 +34,8 @@ FluidStep initial_acoustic_step(fluid::FlowConfig const& flow, fluid::Grid const
   };
   consider("fluid.ambient", flow.ambient.density, flow.ambient.pressure, flow.ambient.velocity);
   for (std::size_t r = 0; r < flow.region.size(); ++r)
-    consider("fluid.region." + std::to_string(r), flow.region[r].density, flow.region[r].pressure, flow.region[r].velocity);
+    consider("fluid.region." + std::to_string(r), flow.region[r].density, flow.region[r].pressure,
+             flow.region[r].velocity);
   for (std::size_t c = 0; c < flow.charge.size(); ++c) {
     fluid::ChargeConfig const& charge = flow.charge[c];
     std::string const where = "fluid.charge." + std::to_string(c);
@@ -42,11 +43,11 @@ FluidStep initial_acoustic_step(fluid::FlowConfig const& flow, fluid::Grid const
       consider(where, *charge.density, *charge.pressure, {});
     } else if (charge.mass) {
       // p = p0 + Gamma W / V_b with W = 4.184 MJ/kg (theory/fluid.md 1.3); c depends on the volume through p0 only.
-      Real const density = charge.density.value_or(*charge.mass / (charge.radius ? std::pow(*charge.radius, grid.dimension) *
-                                                                                       (grid.dimension == 3 ? 4.18879 : 3.14159)
-                                                                                 : 1));
-      consider(where, density,
-               flow.ambient.pressure + (flow.gas.gamma - 1) * 4.184e6 * charge.tnt_factor * density, {});
+      Real const density = charge.density.value_or(
+          *charge.mass /
+          (charge.radius ? std::pow(*charge.radius, grid.dimension) * (grid.dimension == 3 ? 4.18879 : 3.14159) : 1));
+      consider(where, density, flow.ambient.pressure + (flow.gas.gamma - 1) * 4.184e6 * charge.tnt_factor * density,
+               {});
     }
   }
   return best;
@@ -56,7 +57,10 @@ FluidStep initial_acoustic_step(fluid::FlowConfig const& flow, fluid::Grid const
 Real measured_rate(fluid::FlowConfig const& config, fluid::Grid const& grid, parallel::Comm& comm) {
   fluid::Grid small = grid;
   for (std::size_t d = 0; d < 3; ++d)
-    small.cells[d] = d < static_cast<std::size_t>(grid.dimension) ? (grid.dimension == 3 ? 32 : grid.dimension == 2 ? 64 : 512) : 1;
+    small.cells[d] = d < static_cast<std::size_t>(grid.dimension) ? (grid.dimension == 3   ? 32
+                                                                     : grid.dimension == 2 ? 64
+                                                                                           : 512)
+                                                                  : 1;
   small.periodic = {true, true, true};
   for (std::size_t d = static_cast<std::size_t>(grid.dimension); d < 3; ++d) small.periodic[d] = false;
   fluid::divide(small, 512, fluid::ghost_depth(config.order()));
@@ -86,7 +90,9 @@ std::string human_time(Real seconds) {
 
 std::string why_off(std::string const& effect, Scene const& scene) {
   std::string const domain = effect.substr(0, effect.find('.'));
-  bool const open = domain == "fluid" ? scene.fluid.has_value() : domain == "solid" ? scene.solid.has_value() : scene.coupling.has_value();
+  bool const open = domain == "fluid"   ? scene.fluid.has_value()
+                    : domain == "solid" ? scene.solid.has_value()
+                                        : scene.coupling.has_value();
   return open ? effect.substr(effect.find('.') + 1) + " is not in [" + domain + "]" : "no [" + domain + "]";
 }
 
@@ -135,8 +141,10 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
 
   Real const rate = scene.fluid && scene.fluid->euler ? measured_rate(*scene.fluid, *grid, comm) : 0;
   Real const cut_cost = grid && grid->dimension == 3 ? 60e-6 : 5e-6;  // s per cut cell and step, from `brisance bench`
-  Real per_step = (rate > 0 ? static_cast<Real>(cells) / rate : 0) + cut_cost * static_cast<Real>(cut) + 5e-8 * static_cast<Real>(links);
-  Real const worst = partition.imbalance.empty() ? 1 : *std::max_element(partition.imbalance.begin(), partition.imbalance.end());
+  Real per_step = (rate > 0 ? static_cast<Real>(cells) / rate : 0) + cut_cost * static_cast<Real>(cut) +
+                  5e-8 * static_cast<Real>(links);
+  Real const worst =
+      partition.imbalance.empty() ? 1 : *std::max_element(partition.imbalance.begin(), partition.imbalance.end());
   Real const wall = steps * per_step / options.ranks * worst;
 
   if (comm.rank() != 0) return 0;

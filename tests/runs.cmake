@@ -17,8 +17,8 @@ brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid
 # Faults of bodies and ranks: scene errors, nothing written.
 foreach(fault overlapping-bodies non-convex-cells)
   set(scene ${PROJECT_SOURCE_DIR}/tests/support/scenes/${fault}.toml)
-  set(says_overlapping-bodies "bodies? .*overlap")
-  set(says_non-convex-cells "not convex")
+  set(says_overlapping-bodies "overlapping-bodies.toml:14:1: .*left.*right.*overlap by")
+  set(says_non-convex-cells "non-convex-cells.toml:12:1: .*cell 0 is not convex at")
   brisance_expect(scene_${fault} CODE 2 LABELS unit MESSAGE "${says_${fault}}" ABSENT ${runs}/${fault}
                   COMMAND ${program} run ${scene} --out ${runs}/${fault})
 endforeach()

@@ -55,17 +55,24 @@ TEST(ExplosionCylinder, MeanRadiusFollowsTheReference) {
     if (c.time() <= 0.6e-3 * (1 + 1e-12)) speed = outer_speed(c);
     previous_time = c.time(), previous = r;
   });
-  EXPECT_TRUE(evidence::near("V10", "explosion in a cylinder", "order 11", "mean radius at 0.60 ms", at[6], 1.0254, 3e-4));
-  EXPECT_TRUE(evidence::near("V10", "explosion in a cylinder", "order 11", "largest mean radius", largest, 1.0279, 3e-4));
-  EXPECT_TRUE(evidence::near("V10", "explosion in a cylinder", "order 11", "time of it", time_of_largest, 0.93e-3, 0.04e-3));
-  EXPECT_TRUE(evidence::near("V10", "explosion in a cylinder", "order 11", "mean radius at 1.60 ms", at[16], 1.0230, 3e-4));
-  EXPECT_TRUE(evidence::near("V10", "explosion in a cylinder", "order 11", "mean radius at 2.00 ms", at[20], 1.0254, 3e-4));
-  EXPECT_TRUE(evidence::at_most("V10", "explosion in a cylinder", "order 11", "speed of the outer air at 0.6 ms", speed, 13));
+  EXPECT_TRUE(
+      evidence::near("V10", "explosion in a cylinder", "order 11", "mean radius at 0.60 ms", at[6], 1.0254, 3e-4));
+  EXPECT_TRUE(
+      evidence::near("V10", "explosion in a cylinder", "order 11", "largest mean radius", largest, 1.0279, 3e-4));
+  EXPECT_TRUE(
+      evidence::near("V10", "explosion in a cylinder", "order 11", "time of it", time_of_largest, 0.93e-3, 0.04e-3));
+  EXPECT_TRUE(
+      evidence::near("V10", "explosion in a cylinder", "order 11", "mean radius at 1.60 ms", at[16], 1.0230, 3e-4));
+  EXPECT_TRUE(
+      evidence::near("V10", "explosion in a cylinder", "order 11", "mean radius at 2.00 ms", at[20], 1.0254, 3e-4));
+  EXPECT_TRUE(
+      evidence::at_most("V10", "explosion in a cylinder", "order 11", "speed of the outer air at 0.6 ms", speed, 13));
   Conservation const& k = c.conservation();
   EXPECT_TRUE(evidence::at_most("V10", "explosion in a cylinder", "order 11", "mass defect", k.mass, 1e-12));
   EXPECT_TRUE(evidence::at_most("V10", "explosion in a cylinder", "order 11", "momentum defect",
                                 max(k.momentum.x, k.momentum.y), 1e-12));
-  EXPECT_TRUE(evidence::at_most("V10", "explosion in a cylinder", "order 11", "exchange energy defect", k.exchange_energy, 1e-12));
+  EXPECT_TRUE(evidence::at_most("V10", "explosion in a cylinder", "order 11", "exchange energy defect",
+                                k.exchange_energy, 1e-12));
   EXPECT_TRUE(evidence::at_most("V10", "explosion in a cylinder", "order 11", "energy defect", k.energy, 2.5e-7));
 }
 
