@@ -34,11 +34,11 @@ std::string number(double x) {
 
 bool record(std::string const& id, std::string const& name, std::string const& variant, std::string const& quantity,
             double expected, double got, std::string const& tolerance, bool ok) {
-  write_row(id + "," + name + "," + variant + "," + quantity + "," + number(expected) + "," + number(got) + "," + tolerance +
-            "," + (ok ? "pass" : "fail") + "\n");
+  write_row(id + "," + name + "," + variant + "," + quantity + "," + number(expected) + "," + number(got) + "," +
+            tolerance + "," + (ok ? "pass" : "fail") + "\n");
   if (!ok)
-    std::printf("%s %s [%s] %s: expected %.9g (%s), got %.9g\n", id.c_str(), name.c_str(), variant.c_str(), quantity.c_str(),
-                expected, tolerance.c_str(), got);
+    std::printf("%s %s [%s] %s: expected %.9g (%s), got %.9g\n", id.c_str(), name.c_str(), variant.c_str(),
+                quantity.c_str(), expected, tolerance.c_str(), got);
   return ok;
 }
 
@@ -49,8 +49,8 @@ bool at_most(std::string const& id, std::string const& name, std::string const& 
   return record(id, name, variant, quantity, limit, got, "at most", std::isfinite(got) && got <= limit);
 }
 
-bool near(std::string const& id, std::string const& name, std::string const& variant, std::string const& quantity, double got,
-          double expected, double tolerance) {
+bool near(std::string const& id, std::string const& name, std::string const& variant, std::string const& quantity,
+          double got, double expected, double tolerance) {
   return record(id, name, variant, quantity, expected, got, number(tolerance), std::abs(got - expected) <= tolerance);
 }
 
