@@ -15,6 +15,7 @@ option(BRISANCE_WERROR "Treat warnings as errors" OFF)
 add_library(brisance_flags INTERFACE)
 target_compile_options(brisance_flags INTERFACE -fno-math-errno -ffp-contract=off -Wall -Wextra -Wconversion
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # GCC 12 raises it for std::string + (PR 105329)
+target_compile_options(brisance_flags INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)  # not in GCC's -Wconversion
 if(BRISANCE_NATIVE)
   target_compile_options(brisance_flags INTERFACE -march=native)
 else()

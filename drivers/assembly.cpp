@@ -131,7 +131,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
         std::make_unique<solid::Solid>(*w.mesh, *scene.solid, std::vector<int>(owner.begin() + blocks, owner.end()),
                                        comm, w.dimension, coupled ? w.surface.get() : nullptr);
   if (scene.fluid && scene.fluid->euler) w.euler = std::make_unique<fluid::Euler>(*scene.fluid->euler, *w.flow);
-  if (w.solid) w.dynamics = std::make_unique<solid::Dynamics>(*scene.solid, *w.solid, comm);
+  if (w.solid) w.dynamics = std::make_unique<solid::Dynamics>(*scene.solid, *w.solid);
   if (coupled) {
     fluid::GasState const& air = scene.fluid->ambient;
     w.cut_cells =

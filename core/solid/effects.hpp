@@ -8,8 +8,7 @@ namespace brisance::solid {
 /// Registers solid.motion, and solid.links and solid.gravity when the scene lists them.
 class Dynamics : public Effect {
  public:
-  Dynamics(SolidConfig const& config, Solid& solid, parallel::Comm& comm)
-      : config_(config), solid_(solid), comm_(comm) {}
+  Dynamics(SolidConfig const& config, Solid& solid) : config_(config), solid_(solid) {}
   void join(Plan& plan) override;
   /// Collective. Ghost poses and internal forces of the initial state.
   void start();
@@ -19,7 +18,6 @@ class Dynamics : public Effect {
   void account(Ledger& ledger);
   SolidConfig config_;
   Solid& solid_;
-  parallel::Comm& comm_;
   std::int64_t link_updates_ = 0;
   Real elapsed_ = 0;  ///< s since the last account
 };

@@ -116,7 +116,7 @@ struct Cut {
 /// Points in buckets about a mean spacing wide, visited ring by ring.
 class Buckets {
  public:
-  Buckets(std::vector<Vec3> const& points, Real width) : points_(points), width_(width) {
+  Buckets(std::vector<Vec3> const& points, Real width) : width_(width) {
     for (std::size_t p = 0; p < points.size(); ++p) map_[place(points[p])].push_back(p);
   }
   template <class Visit>
@@ -138,7 +138,6 @@ class Buckets {
     return {static_cast<int>(std::floor(p.x / width_)), static_cast<int>(std::floor(p.y / width_)),
             static_cast<int>(std::floor(p.z / width_))};
   }
-  std::vector<Vec3> const& points_;
   Real width_;
   std::map<std::array<int, 3>, std::vector<std::size_t>> map_;
 };
