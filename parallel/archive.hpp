@@ -17,35 +17,39 @@ struct Range {
   std::int64_t first = 0, count = 0;
 };
 
+/// Every call but `attribute` is collective, and its failure on one rank is an Error on all: Error(system) with the
+/// path and the cause, the temporary file removed. The bytes of the file depend on its content alone, not on the ranks.
 class ArchiveWriter {
  public:
-  /// Collective. Opens `path` + a temporary suffix in the same folder. Throws Error(system) with the path and the
-  /// cause.
+  /// Creates the file under its temporary name in the same folder.
   ArchiveWriter(Comm& comm, std::string const& path);
-  ~ArchiveWriter();  ///< not closed: the temporary file is removed
+  ~ArchiveWriter();  ///< not closed: the temporary file is removed. Not collective.
   ArchiveWriter(ArchiveWriter const&) = delete;
   ArchiveWriter& operator=(ArchiveWriter const&) = delete;
-  /// Collective. Dataset `name` of total_rows x columns doubles; this rank gives the rows of `ranges`, in that order.
+
+  /// Dataset `name` of [total_rows][columns] doubles, [total_rows] for one column; this rank gives the rows of
+  /// `ranges`, in that order. The ranks together give every row exactly once; folders in the name ("solid/particles")
+  /// are made.
   void rows(std::string const& name, std::int64_t total_rows, int columns, std::span<Range const> ranges,
             std::span<double const> data);
-  /// Collective. Rows with explicit ids, any number per rank (datasets name/id and name/data). Order in the file is
-  /// free.
+  /// The same for integers: connectivities and the like.
+  void rows_int(std::string const& name, std::int64_t total_rows, int columns, std::span<Range const> ranges,
+                std::span<std::int64_t const> data);
+  /// Rows with explicit ids, any number per rank: datasets name/id and name/data, sorted by id.
+  /// Cost: every rank sees all ids; for sets that are small beside the fields.
   void sparse(std::string const& name, int columns, std::span<std::int64_t const> ids, std::span<double const> data);
-  /// Collective. A dense array [nz][ny][nx] (or [..][columns] when columns > 1); this rank gives boxes of it, x
-  /// fastest.
+  /// A dense array [nz][ny][nx], or [nz][ny][nx][columns] when columns > 1; this rank gives boxes of it, x fastest.
   struct Box {
     std::array<std::int64_t, 3> first, size;
   };  ///< x, y, z
   void grid(std::string const& name, std::array<std::int64_t, 3> cells, int columns, std::span<Box const> boxes,
             std::span<double const> data, bool single_precision);
-  /// Collective; identical on all ranks. Integer rows for connectivities and the like go through `rows_int`.
-  void rows_int(std::string const& name, std::int64_t total_rows, int columns, std::span<Range const> ranges,
-                std::span<std::int64_t const> data);
+  /// A single value; rank 0's is written.
   void attribute(std::string const& name, double value);
   void attribute(std::string const& name, std::int64_t value);
   void attribute(std::string const& name, std::string const& value);
-  /// Collective. Writes the checksum of all content, flushes, fsyncs, renames. Throws Error(system) on any rank's
-  /// failure.
+
+  /// Writes the checksum of all content, flushes to the disk, renames.
   void close();
 
  private:
@@ -53,12 +57,17 @@ class ArchiveWriter {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Opening and reading rows are collective: a failure on one rank is an Error(system) on all. The rest is local.
 class ArchiveReader {
  public:
-  /// Collective. Throws Error(system) if the file is missing, truncated or its checksum differs; names file and cause.
+  /// Opens the file and checks its content against its checksum, each rank a part. Throws Error(system) that names the
+  /// file if it is missing, truncated, damaged or not ours.
   ArchiveReader(Comm& comm, std::string const& path);
   ~ArchiveReader();
-  bool has(std::string const& name) const;
+  bool has(std::string const& name) const;                ///< a dataset, a sparse set or a value
+  std::int64_t row_count(std::string const& name) const;  ///< rows of a dataset; cells of a grid
+  std::vector<std::string> values() const;                ///< names of the single values, sorted
+  /// Rows in the order of `ranges`; of a grid, cells numbered with x fastest.
   std::vector<double> rows(std::string const& name, int columns, std::span<Range const> ranges);
   std::vector<std::int64_t> rows_int(std::string const& name, int columns, std::span<Range const> ranges);
   struct Sparse {
