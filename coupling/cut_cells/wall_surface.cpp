@@ -22,7 +22,7 @@ bool in_beam(int dimension, CellBox const& box, CellBox const& triangle) {
 
 WallSurface::WallSurface(solid::Solid& solid, solid::Surface const& surface, fluid::Flow& flow, parallel::Comm& comm,
                          Index margin)
-    : solid_(solid), surface_(surface), flow_(flow), comm_(comm), margin_(margin) {
+    : solid_(solid), surface_(surface), flow_(flow), comm_(comm) {
   std::vector<GlobalId> needed;
   for (std::size_t t = 0; t < surface.elements().size(); ++t) {
     solid::Element const& triangle = surface.elements()[t];

@@ -66,7 +66,6 @@ class WallSurface {
   solid::Surface const& surface_;
   fluid::Flow& flow_;
   parallel::Comm& comm_;
-  Index margin_;
   std::vector<Vertex> vertices_, saved_;  ///< sorted by id
   std::vector<Index> member_;             ///< local particles of the vertices
   std::vector<Vec3> arm_;                 ///< beside member_

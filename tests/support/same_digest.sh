@@ -34,6 +34,10 @@ for n in 2 3 4; do
   run $n ranks$n run "$scene" --out "$work/ranks$n" --steps "$steps" "$@"
   check "$n ranks" "$work/ranks$n"
 done
+if grep -q '^\[fluid\]' "$scene"; then
+  run 2 blocks run "$scene" --out "$work/blocks" --steps "$steps" "$@" --set fluid.block=17
+  check "blocks of 17 cells" "$work/blocks"
+fi
 half=$((steps / 2))
 for pair in "1 3" "2 1" "4 2"; do
   read -r before after <<<"$pair"
