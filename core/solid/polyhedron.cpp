@@ -119,15 +119,19 @@ std::optional<ShapeFault> fault(Polyhedron const& p, Real tolerance) {
     for (int c : p.faces[f])
       if (std::abs(dot(p.vertices[at(c)] - g.centroid, g.normal)) > slack)
         return ShapeFault{"a face that is not plane", p.vertices[at(c)]};
-    for (Vec3 const& v : p.vertices)
-      if (dot(v - g.centroid, g.normal) > slack) return ShapeFault{"not convex", v};
-    // A plane face may still be a star or fold back on itself: each corner must turn left.
+    // Each corner of a face must turn left; looked at first, since it names the notch itself.
     auto const& face = p.faces[f];
     for (std::size_t k = 0; k < face.size(); ++k) {
       Vec3 const &a = p.vertices[at(face[k])], &b = p.vertices[at(face[(k + 1) % face.size()])],
                  &c = p.vertices[at(face[(k + 2) % face.size()])];
       if (dot(cross(b - a, c - b), g.normal) < -slack * norm(b - a)) return ShapeFault{"not convex", b};
     }
+  }
+  for (std::size_t f = 0; f < p.faces.size(); ++f) {
+    FaceGeometry const g = face_geometry(p, f);
+    if (g.area <= 1e-10 * square(size)) continue;
+    for (Vec3 const& v : p.vertices)
+      if (dot(v - g.centroid, g.normal) > slack) return ShapeFault{"not convex", v};
   }
   return std::nullopt;
 }
