@@ -160,7 +160,9 @@ void Hdf5File::create(std::string const& path) {
   Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "prepares a file");
   use_checked_format(access);
   done(H5Pset_file_locking(access, false, true), "turns file locks off");
-  hid_t const file = checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "cannot create the file");
+  Handle const creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "prepares a file");
+  done(H5Pset_obj_track_times(creation, false), "prepares a file");  // of the root group
+  hid_t const file = checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, access), "cannot create the file");
   done(H5Fclose(file), "cannot write the file");
 }
 
@@ -199,9 +201,16 @@ void Hdf5File::add(std::string const& name, Dataset const& dataset) {
   done(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY), "prepares a dataset");
   done(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER), "prepares a dataset");
   done(H5Pset_obj_track_times(creation, false), "prepares a dataset");  // equal content, equal bytes
-  Handle const links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "prepares a dataset");
-  done(H5Pset_create_intermediate_group(links, 1), "prepares a dataset");
-  Handle const made(H5Dcreate2(file_, name.c_str(), file_type(dataset.type), space, links, creation, H5P_DEFAULT),
+  // Groups are made one by one: those HDF5 adds by itself carry the time of day.
+  Handle const group(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "prepares a group");
+  done(H5Pset_obj_track_times(group, false), "prepares a group");
+  for (std::size_t slash = name.find('/', 1); slash != std::string::npos; slash = name.find('/', slash + 1)) {
+    std::string const path = name.substr(0, slash);
+    if (H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0) continue;
+    Handle const made(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, group, H5P_DEFAULT), H5Gclose,
+                      "cannot create a group");
+  }
+  Handle const made(H5Dcreate2(file_, name.c_str(), file_type(dataset.type), space, H5P_DEFAULT, creation, H5P_DEFAULT),
                     H5Dclose, "cannot create a dataset");
 }
 
