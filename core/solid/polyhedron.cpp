@@ -119,13 +119,17 @@ std::optional<ShapeFault> fault(Polyhedron const& p, Real tolerance) {
     for (int c : p.faces[f])
       if (std::abs(dot(p.vertices[at(c)] - g.centroid, g.normal)) > slack)
         return ShapeFault{"a face that is not plane", p.vertices[at(c)]};
-    // Each corner of a face must turn left; looked at first, since it names the notch itself.
+    // Each corner of a face must turn left; looked at on all faces first, since it names the notch itself.
     auto const& face = p.faces[f];
     for (std::size_t k = 0; k < face.size(); ++k) {
       Vec3 const &a = p.vertices[at(face[k])], &b = p.vertices[at(face[(k + 1) % face.size()])],
                  &c = p.vertices[at(face[(k + 2) % face.size()])];
       if (dot(cross(b - a, c - b), g.normal) < -slack * norm(b - a)) return ShapeFault{"not convex", b};
     }
+  }
+  for (std::size_t f = 0; f < p.faces.size(); ++f) {
+    FaceGeometry const g = face_geometry(p, f);
+    if (g.area <= 1e-10 * square(size)) continue;
   }
   for (std::size_t f = 0; f < p.faces.size(); ++f) {
     FaceGeometry const g = face_geometry(p, f);
