@@ -143,7 +143,7 @@ struct ArchiveWriter::Impl {
       file->write(name, slab.first * columns, static_cast<std::int64_t>(slab.data.size()), slab.data.data());
     });
     file->close();
-    require(written.text.empty(), written.kind, written.text);
+    require(written.text.empty(), written.kind, written.text + ". Is the disk full or the quota used up?");
   }
 };
 

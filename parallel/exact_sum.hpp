@@ -7,7 +7,7 @@ namespace brisance::parallel {
 
 /// Fixed-point accumulator wide enough for every finite double: exact, so any order gives the same bits.
 /// A NaN or an infinity among the summands makes the value NaN, also after a reduction or a restart of the limbs.
-/// Units: those of the summands.  Cost: about 2 ns per add; for fields, sum each block in a fixed order first.
+/// Units: those of the summands.  Cost: about 8 ns per add; for fields, sum each block in a fixed order first.
 class ExactSum {
  public:
   void add(double value);
