@@ -136,13 +136,18 @@ int execute(Job const& job, parallel::Comm& comm) {
   double checkpoint_number =
       scene.output.checkpoint_interval ? std::floor(simulation.clock().time / *scene.output.checkpoint_interval) : 0;
   double last_report = seconds_now();
+  int warnings = 0;
   bool stopped = false;
   auto const reached = [&] {
     return simulation.finished() || (job.stop.until && simulation.clock().time >= *job.stop.until) ||
            (job.stop.steps && simulation.clock().step >= *job.stop.steps);
   };
   while (!reached()) {
+    std::int64_t const retries = simulation.statistics().retries;
     simulation.pair();
+    if (simulation.statistics().retries > retries && warnings++ < 20)
+      spdlog::warn("step {}: a pair of steps was redone with dt = {:.3g} s: {}", simulation.clock().step,
+                   simulation.clock().dt, simulation.statistics().last_rejection);
     update_extrema(*world, run);
     history.row();
     if (simulation.at_output_time()) output.write();

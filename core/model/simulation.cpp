@@ -108,6 +108,7 @@ void Simulation::pair() {
       return;
     }
     ++statistics_.retries;
+    statistics_.last_rejection = message;
     require(halvings < 10, Failure::numerical,
             message + " (step " + std::to_string(clock_.step) + ", t = " + std::to_string(clock_.time) +
                 " s, after 10 halvings of dt; lower the Courant number or refine the grid)");
@@ -155,7 +156,7 @@ void Simulation::read(parallel::ArchiveReader& file) {
   clock_.step = file.integer("step");
   retry_factor_ = file.real("retry_factor");
   outputs_done_ = file.integer("outputs_done");
-  statistics_ = {file.real("dt_min"), file.real("dt_max"), {}, file.integer("retries")};
+  statistics_ = {file.real("dt_min"), file.real("dt_max"), {}, file.integer("retries"), {}};
   std::string const limits = file.text("limited_by");
   for (std::size_t at = 0; at < limits.size();) {
     std::size_t const equal = limits.find('=', at), stop = limits.find(';', equal);

@@ -19,6 +19,7 @@ struct StepStatistics {
   Real dt_min = 0, dt_max = 0;
   std::map<std::string, std::int64_t> limited_by;  ///< steps per limit
   std::int64_t retries = 0;                        ///< rejected pairs
+  std::string last_rejection;                      ///< why and where
 };
 
 class Simulation {

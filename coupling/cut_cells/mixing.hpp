@@ -21,9 +21,9 @@ struct NearCell {
 };
 
 /// Cells beyond those of a rank within which the groups of its cells are built redundantly.
-constexpr Index mixing_halo = 6;
+constexpr Index mixing_halo = 16;
 /// Largest extent of a group along an axis: what the halo allows, applied on any number of ranks.
-constexpr Index largest_group = 5;
+constexpr Index largest_group = 14;
 
 /// Groups of small cells, and of whatever must join them to be admissible; fills `grouped` and `mean`.
 /// Returns an empty text, or why and where no admissible grouping exists. Independent of the order of visit and of

@@ -141,7 +141,8 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
         Index room = 6;
         if (run.low >= 0) room = std::min(room, at - run.begin);
         if (run.high >= 0) room = std::min(room, run.end - at);
-        scratch_order_[static_cast<std::size_t>(f) * width + lane] = order_within(order, room);
+        bool const beyond_run = at > std::min(run.end, n);  // of a lane shorter than the longest: order 0, not counted
+        scratch_order_[static_cast<std::size_t>(f) * width + lane] = beyond_run ? 0 : order_within(order, room);
       }
     }
     fluid::LineBundle const bundle{
