@@ -1,0 +1,78 @@
+// V11: an elastic shell between hot and cold gas: the error of the energy is of second order in the step and does not
+// drift (theory/coupling.md sections 1.7, 7).
+#include <gtest/gtest.h>
+
+#include "tests/support/evidence.hpp"
+#include "tests/support/nd_scene.hpp"
+
+namespace brisance {
+namespace {
+
+using namespace testing;
+
+std::string scene(Real end_time, Real motion_cfl) {
+  return "end_time = " + quantity(end_time, "s") +
+         "\n[fluid]\nlow = [\"-0.5 m\", \"-0.5 m\"]\nhigh = [\"0.5 m\", \"0.5 m\"]\ncells = [60, 60]\nambient = " +
+         gas_state(1.4, 1, {}) +
+         "\neuler = { order = 11, cfl = 0.5 }\n[[fluid.region]]\nshape = \"ball\"\ncentre = [\"0.13 m\", \"0.05 m\"]\n"
+         "radius = \"0.1 m\"\ndensity = \"11.2 kg/m3\"\npressure = \"8 Pa\"\n[solid]\nlinks = {}\nmotion = { cfl = " +
+         digits(motion_cfl) +
+         " }\n[solid.material.shell]\ndensity = \"50 kg/m3\"\nyoung_modulus = \"2500 Pa\"\npoisson_ratio = 0.0\n"
+         "[[solid.body]]\nmaterial = \"shell\"\nshape = \"tube\"\ntessellation = \"polar\"\ncentre = [\"0 m\", \"0 "
+         "m\"]\n"
+         "inner_radius = \"0.25 m\"\nouter_radius = \"0.28 m\"\ncells = [1, 50]\nphase = \"0.013 rad\"\n[coupling]\n"
+         "cut_cells = { wall_pressure = \"cell\" }\n";
+}
+
+/// The figures of V11 are those of a two-cell MUSCL scheme. On V10 the sharper waves of OSMP raise the energy error
+/// from 1.47e-7 to 2.2e-7 (theory/coupling.md 1.8, 7): the same factor is allowed here, where none was measured.
+constexpr Real sharper = 1.5;
+
+/// The fraction of the solid's stable step that makes the step of the run `dt`: the solid limits it, so it is constant.
+Real cfl_for(Real dt) {
+  CoupledCase c(scene(1, 1));
+  return dt / c.world->solid->stable_step();
+}
+
+TEST(ElasticShell, EnergyErrorFallsAsTheSquareOfTheStep) {
+  constexpr Real dt = 1.4e-3, end_time = 0.7;
+  Real const cfl = cfl_for(dt);
+  std::vector<Real> error;
+  for (Real const part : evidence::full() ? std::vector<Real>{1, 2, 4} : std::vector<Real>{1, 2}) {
+    CoupledCase c(scene(end_time, cfl / part));
+    c.run();
+    EXPECT_NEAR(c.simulation().statistics().dt_max, dt / part, 1e-3 * dt);
+    error.push_back(c.conservation().energy);
+    EXPECT_TRUE(evidence::at_most("V11", "elastic shell", "dt = 1.4e-3/" + digits(part), "largest energy defect",
+                                  error.back(), sharper * 2.3e-7 / (part * part)));
+    EXPECT_TRUE(evidence::at_most("V11", "elastic shell", "dt = 1.4e-3/" + digits(part), "exchange energy defect",
+                                  c.conservation().exchange_energy, 1e-12));
+  }
+  for (std::size_t i = 1; i < error.size(); ++i)
+    EXPECT_TRUE(evidence::near("V11", "elastic shell", "halved step " + std::to_string(i), "order of the energy defect",
+                               std::log2(error[i - 1] / error[i]), 2, 0.3));
+}
+
+TEST(ElasticShell, EnergyDoesNotDrift) {
+  constexpr Real dt = 1.4e-3;
+  std::int64_t const steps = evidence::full() ? 4254 : 1400;
+  CoupledCase c(scene(1.01 * dt * static_cast<Real>(steps), cfl_for(dt)));
+  // Means of the energy defect over ten windows of the run.
+  std::vector<Real> sum(10, 0), count(10, 0);
+  c.run(steps, [&] {
+    auto const window = static_cast<std::size_t>(std::min<std::int64_t>(9, 10 * c.step() / steps));
+    sum[window] += c.conservation().energy_final;
+    count[window] += 1;
+  });
+  Real early = 0;
+  for (std::size_t w = 0; w < 5; ++w) early = max(early, std::abs(sum[w] / count[w]));
+  std::string const variant = std::to_string(steps) + " steps";
+  EXPECT_TRUE(evidence::at_most("V11", "elastic shell", variant, "largest energy defect", c.conservation().energy,
+                                sharper * 3.8e-7));
+  EXPECT_TRUE(evidence::at_most("V11", "elastic shell", variant,
+                                "mean defect of the last tenth over the largest of the first five",
+                                std::abs(sum[9] / count[9]) / early, evidence::full() ? 1 : 1.1));
+}
+
+}  // namespace
+}  // namespace brisance
