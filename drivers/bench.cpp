@@ -7,8 +7,10 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/base/errors.hpp"
+#include "core/solid/bench_links.hpp"
 #include "coupling/geometry/bench.hpp"
 #include "drivers/commands.hpp"
 #include "fluid/flux/bench_sweep.hpp"
@@ -30,6 +32,14 @@ Row geometry_row(std::string const& name, coupling::GeometryRate rate) {
   return {name, rate.items / rate.seconds, not_counted, not_counted, not_counted};
 }
 
+Row link_row(std::string const& name, Index side, fluid::MachineRoofs const& roofs) {
+  solid::LinkRate const rate = solid::bench_links(side);
+  double const flops = rate.items_per_s * rate.flops_per_item / roofs.flops_per_s;
+  double const bytes = rate.items_per_s * rate.bytes_per_item / roofs.bytes_per_s;
+  // In cache no bytes come from memory: the arithmetic is the limit.
+  return {name, rate.items_per_s, rate.bytes_per_item, rate.flops_per_item, side == 10 ? flops : max(flops, bytes)};
+}
+
 std::vector<Bench> all_benches() {
   std::vector<Bench> benches = {{"stream.triad", fluid::bench_triad},
                                 {"arithmetic.multiply_add", fluid::bench_multiply_add}};
@@ -37,6 +47,9 @@ std::vector<Bench> all_benches() {
     for (int order = 1; order <= 11; order += 2)
       benches.push_back({fmt::format("fluid.{}d.order{}", dimension, order),
                          [=](auto const& roofs) { return fluid::bench_sweep(order, dimension, roofs); }});
+  for (auto const& [place, side] : {std::pair{"cache", Index{10}}, std::pair{"memory", Index{96}}})
+    benches.push_back({fmt::format("solid.links.{}", place),
+                       [=](auto const& roofs) { return link_row(fmt::format("solid.links.{}", place), side, roofs); }});
   benches.push_back({"coupling.cut_cells",
                      [](auto const&) { return geometry_row("coupling.cut_cells", coupling::bench_cut_cells()); }});
   benches.push_back({"coupling.closest_points", [](auto const&) {
