@@ -32,10 +32,17 @@ std::string number(double x) {
   return text;
 }
 
+/// A field of the table: commas would end it.
+std::string field(std::string text) {
+  for (char& c : text)
+    if (c == ',') c = ';';
+  return text;
+}
+
 bool record(std::string const& id, std::string const& name, std::string const& variant, std::string const& quantity,
             double expected, double got, std::string const& tolerance, bool ok) {
-  write_row(id + "," + name + "," + variant + "," + quantity + "," + number(expected) + "," + number(got) + "," +
-            tolerance + "," + (ok ? "pass" : "fail") + "\n");
+  write_row(id + "," + field(name) + "," + field(variant) + "," + field(quantity) + "," + number(expected) + "," +
+            number(got) + "," + tolerance + "," + (ok ? "pass" : "fail") + "\n");
   if (!ok)
     std::printf("%s %s [%s] %s: expected %.9g (%s), got %.9g\n", id.c_str(), name.c_str(), variant.c_str(),
                 quantity.c_str(), expected, tolerance.c_str(), got);
