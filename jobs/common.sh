@@ -34,8 +34,9 @@ install_missing() {
 build_release() {
   if [[ ! -f $build/build.ninja ]]; then
     say "configuring $build"
-    cmake -G Ninja -C "$root/cmake/presets/release.cmake" -S "$root" -B "$build" >"$build.configure.log" 2>&1 ||
-      { cat "$build.configure.log" >&2; fail "cmake failed"; }
+    mkdir -p "$build"
+    cmake -G Ninja -C "$root/cmake/presets/release.cmake" -S "$root" -B "$build" >"$build/configure.log" 2>&1 ||
+      { cat "$build/configure.log" >&2; fail "cmake failed"; }
   fi
   say "building"
   cmake --build "$build" --target "$@" || fail "the build failed"
