@@ -83,10 +83,12 @@ void Simulation::pair() {
   for (Plan::Keep const& k : plan_.kept()) k.save();
   Clock const start = clock_;
   auto const ledger_start = ledger_;
+  std::string limited_by;
+  bool at_output = false;
+  Real dt = choose_step(limited_by, at_output);
   for (int halvings = 0;; ++halvings) {
-    std::string limited_by, message;
-    bool at_output = false;
-    clock_.dt = choose_step(limited_by, at_output);
+    std::string message;
+    clock_.dt = dt;
     bool good = true;
     for (int s = 0; s < control_.steps_per_pair && good; ++s) {
       step();
@@ -116,6 +118,9 @@ void Simulation::pair() {
     clock_ = start;
     ledger_ = ledger_start;
     retry_factor_ *= 0.5;
+    dt *= 0.5;
+    limited_by = "retry";
+    at_output = false;
   }
 }
 

@@ -1,5 +1,7 @@
 #include "core/solid/effects.hpp"
 
+#include <cmath>
+
 #include "parallel/archive.hpp"
 
 namespace brisance::solid {
@@ -38,6 +40,7 @@ void Dynamics::join(Plan& plan) {
   });
   plan.limit("solid.motion",
              [this](Clock const&) { return solid_.stable_limit().by_rotation ? solid_.stable_step() : 1e300; });
+  plan.health([this](Clock const&) { return judge(); });
   plan.account([this](Ledger& ledger) { account(ledger); });
   auto saved = std::make_shared<Solid::Saved>();
   Plan::Keep keep;
@@ -72,6 +75,21 @@ void Dynamics::join(Plan& plan) {
 void Dynamics::start() {
   solid_.exchange_pose();
   if (config_.links) solid_.compute_forces();
+}
+
+Verdict Dynamics::judge() const {
+  for (Index i = 0; i < solid_.owned(); ++i) {
+    auto const at = static_cast<std::size_t>(i);
+    Vec3 const x = solid_.pose()[at].x;
+    Motion const& motion = solid_.motion()[at];
+    if (std::isfinite(norm2(x) + norm2(motion.v) + norm2(motion.spin))) continue;
+    Mesh const& mesh = solid_.mesh();
+    GlobalId const id = solid_.id(i);
+    return {false, "particle " + std::to_string(id) + " of body \"" +
+                       mesh.bodies[static_cast<std::size_t>(mesh.particle(id).body)].name +
+                       "\" has a position or velocity that is not a number"};
+  }
+  return {};
 }
 
 void Dynamics::account(Ledger& ledger) {

@@ -16,6 +16,7 @@ class Dynamics : public Effect {
 
  private:
   void account(Ledger& ledger);
+  Verdict judge() const;
   SolidConfig config_;
   Solid& solid_;
   std::int64_t link_updates_ = 0;

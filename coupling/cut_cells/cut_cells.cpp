@@ -4,6 +4,7 @@
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/mixing.hpp"
+#include "parallel/error.hpp"
 
 namespace brisance::coupling {
 
@@ -143,29 +144,42 @@ void CutCells::predict(Real dt) {
 }
 
 void CutCells::new_geometry() {
-  surface_.send_triangles(next_.triangles);
   sweeper_.begin_step();
-  std::int64_t state[2] = {0, 0};  // triangles that move, and that run away
-  for (SurfaceTriangle const& t : next_.triangles) {
-    if (!t.moved(flow_.grid().dimension)) continue;
-    state[0] = 1;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(flow_.grid().dimension); ++a)
-      for (int d = 0; d < flow_.grid().dimension; ++d)
-        if (!(std::abs(t.x_new[a][d] - t.x_old[a][d]) <= 0.5 * flow_.grid().spacing[d])) {
-          state[1] = 1;
-          if (health_.good)
-            health_ = {false, "the wall (triangle " + std::to_string(t.id) + ") moves more than half a cell in a step"};
-        }
-  }
+  // Judged by the owners of the vertices: a triangle that runs away may reach nobody.
+  Vec3 const bound = 0.5 * flow_.grid().spacing;
+  std::optional<Vec3> const lost = surface_.beyond(bound);
+  if (lost && health_.good)
+    health_ = {false, "the wall at (" + std::to_string(lost->x) + ", " + std::to_string(lost->y) + ", " +
+                          std::to_string(lost->z) + ") m moves more than half a cell in a step"};
+  std::optional<Vec3> const across = lost ? std::nullopt : surface_.near_periodic_side();
+  if (across && health_.good)
+    health_ = {false, "a body reaches a periodic side of the domain at (" + std::to_string(across->x) + ", " +
+                          std::to_string(across->y) + ", " + std::to_string(across->z) + ") m"};
+  std::int64_t state[2] = {surface_.moved(), lost || across};
   comm_.sum(std::span(state));
   moved_ = state[0] > 0;
-  if (state[1] > 0) {  // a geometry that runs away is not built: the pair is rejected after this step
-    next_.triangles = record_.triangles;
+  bool const built = state[1] == 0 && build_next();
+  if (!built) {  // the boundary rests in this step, and the pair is rejected after it
+    surface_.hold();
     moved_ = false;
     same_ = false;
+    build_next();
   }
-  if (moved_ || !same_) next_.rebuild();
   same_ = !moved_;
+}
+
+bool CutCells::build_next() {
+  surface_.send_triangles(next_.triangles);
+  if (!moved_ && same_) return true;
+  std::int64_t folded = 0;
+  try {
+    next_.rebuild();
+  } catch (Error const& error) {
+    folded = 1;
+    if (health_.good) health_ = {false, error.what()};
+  }
+  comm_.sum(std::span(&folded, 1));
+  return folded == 0;
 }
 
 void CutCells::load_solid() {
@@ -233,8 +247,11 @@ void CutCells::mix() {
       std::vector<int> ranks;
       CellBox const around =
           grown(grid, {cell.cell, {cell.cell[0] + 1, cell.cell[1] + 1, cell.cell[2] + 1}}, mixing_halo);
-      CellIndex const low = into_domain(grid, around.low);
-      CellIndex const high = into_domain(grid, {around.high[0] - 1, around.high[1] - 1, around.high[2] - 1});
+      CellIndex low{}, high{};  // groups do not reach through periodic sides
+      for (std::size_t d = 0; d < 3; ++d) {
+        low[d] = std::max(around.low[d], 0);
+        high[d] = std::min(around.high[d], grid.cells[d]) - 1;
+      }
       auto const b0 = grid.block_position(grid.block_of(low)), b1 = grid.block_position(grid.block_of(high));
       for (Index bz = b0[2]; bz <= b1[2]; ++bz)
         for (Index by = b0[1]; by <= b1[1]; ++by)

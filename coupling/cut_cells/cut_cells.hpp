@@ -50,6 +50,8 @@ class CutCells : public Effect {
   // pieces of them
   void wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces);
   void transfers();
+  /// Collective. Cuts the cells by the predicted boundary; false when it is not closed around some cell of some rank.
+  bool build_next();
   void boundary_account(Real dt);
   void rebuild_record();
   fluid::State content_before(CellIndex c) const;

@@ -43,8 +43,10 @@ class Merger {
       for (Index i = 0; i < count(); ++i)
         if (root(i) == i && judged_[at(i)] && inadmissible(volume_[at(i)], amount_[at(i)])) {
           Index const partner = growth(i);
-          if (partner < 0) return place(i) + ": no neighbour makes its group of small cells admissible";
-          unions.emplace_back(i, partner);
+          if (partner >= 0)
+            unions.emplace_back(i, partner);
+          else if (mine(i))  // a foreign group may have its partner beyond the halo: its owners judge it
+            return place(i) + ": no neighbour makes its group of small cells admissible";
         }
       if (unions.empty()) return finish();
       for (auto const& [a, b] : unions) unite(a, b);
@@ -131,6 +133,12 @@ class Merger {
         }
     }
     return best;
+  }
+
+  bool mine(Index group) {
+    for (Index i = group; i < count(); ++i)
+      if (cell(i).mine && root(i) == group) return true;
+    return false;
   }
 
   std::string place(Index i) {

@@ -1,6 +1,7 @@
 #include "coupling/cut_cells/wall_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -91,6 +92,28 @@ void WallSurface::accept() {
 
 bool WallSurface::moved() const {
   return std::any_of(vertices_.begin(), vertices_.end(), [](Vertex const& v) { return !(v.record == v.position); });
+}
+
+std::optional<Vec3> WallSurface::beyond(Vec3 const& bound) const {
+  for (Vertex const& v : vertices_)
+    for (int d = 0; d < flow_.grid().dimension; ++d)
+      if (!(std::abs(v.position[d] - v.record[d]) <= bound[d])) return v.record;
+  return std::nullopt;
+}
+
+std::optional<Vec3> WallSurface::near_periodic_side() const {
+  fluid::Grid const& grid = flow_.grid();
+  Index const reach = fluid::ghost_depth(flow_.order()) + 3;
+  for (Vertex const& v : vertices_) {
+    CellIndex const c = cell_of(grid, v.position);
+    for (std::size_t d = 0; d < static_cast<std::size_t>(grid.dimension); ++d)
+      if (grid.periodic[d] && (c[d] < reach || c[d] >= grid.cells[d] - reach)) return v.position;
+  }
+  return std::nullopt;
+}
+
+void WallSurface::hold() {
+  for (Vertex& v : vertices_) v.position = v.record;
 }
 
 Real WallSurface::fastest_vertex(int direction) const {

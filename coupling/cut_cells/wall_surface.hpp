@@ -1,6 +1,7 @@
 // The deformed boundary between the ranks that own the particles and the ranks whose blocks it cuts: triangles go out,
 // vertex forces come back, vertex velocities follow (theory/coupling.md 1.6, 8.2).
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "core/solid/solid.hpp"
@@ -43,6 +44,12 @@ class WallSurface {
 
   Real fastest_vertex(int direction) const;  ///< m/s, over local vertices
   bool moved() const;                        ///< any vertex whose predicted position differs from the record
+  /// Record position of a local vertex whose prediction is farther than `bound` from it, or not a number.
+  std::optional<Vec3> beyond(Vec3 const& bound) const;
+  /// Predicted position of a local vertex that is closer to a periodic side of the domain than a sweep looks.
+  std::optional<Vec3> near_periodic_side() const;
+  /// The predicted positions become those of the record: the boundary rests in this step.
+  void hold();
 
   /// Rows by vertex id of the vertices this rank keeps: record position, velocity (6 columns).
   void write(parallel::ArchiveWriter& file) const;
