@@ -37,6 +37,22 @@ std::vector<Index> count_cut_cells(fluid::Grid const& grid, solid::Mesh const& m
   return count;
 }
 
+/// Runs of cells and groups of small cells do not reach through periodic sides.
+void require_clear_periodic_sides(Scene const& scene, fluid::Grid const& grid, solid::Mesh const& mesh,
+                                  solid::Surface const& surface) {
+  Index const reach = fluid::ghost_depth(scene.fluid->order()) + 3;
+  for (solid::Element const& t : surface.elements())
+    for (std::size_t a = 0; a < static_cast<std::size_t>(grid.dimension); ++a) {
+      coupling::CellIndex const c = coupling::cell_of(grid, surface.reference(t.vertex[a], mesh));
+      for (std::size_t d = 0; d < static_cast<std::size_t>(grid.dimension); ++d)
+        if (grid.periodic[d] && (c[d] < reach || c[d] >= grid.cells[d] - reach))
+          scene_error(scene.fluid->at,
+                      "solid.body \"" + mesh.bodies[static_cast<std::size_t>(mesh.particle(t.particle).body)].name +
+                          "\" is closer than " + std::to_string(reach) + " cells to a side that is periodic along " +
+                          "xyz"[d] + ": move it away, or make the side another");
+    }
+}
+
 parallel::Partition assign_owners(Scene const& scene, fluid::Grid const* grid, solid::Mesh const* mesh,
                                   std::vector<Index> const& cut_cells_of_block, int ranks) {
   std::int64_t const blocks = grid ? grid->block_count() : 0, particles = mesh ? mesh->size() : 0;
@@ -115,10 +131,13 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   }
   bool const coupled = scene.coupling && scene.coupling->cut_cells;
   require(!coupled || w.dimension >= 2, Failure::scene, "coupling.cut_cells needs a fluid in 2 or 3 dimensions");
+  if (coupled && !scene.fluid->euler)
+    scene_error(scene.fluid->at, "coupling.cut_cells needs the effect fluid.euler: add euler = {} to [fluid]");
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
     w.surface = std::make_unique<solid::Surface>(*w.mesh);
   }
+  if (coupled) require_clear_periodic_sides(scene, *grid, *w.mesh, *w.surface);
   if (coupled) w.cut_cells_of_block = count_cut_cells(*grid, *w.mesh, *w.surface);
   w.partition = assign_owners(scene, grid ? &*grid : nullptr, w.mesh.get(), w.cut_cells_of_block, comm.size());
   auto const blocks = static_cast<std::ptrdiff_t>(grid ? grid->block_count() : 0);

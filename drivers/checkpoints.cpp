@@ -52,12 +52,25 @@ void write_checkpoint(World& world, std::string const& directory) {
     file.close();
   }
   parallel::write_text_atomically(*world.comm, directory + "/checkpoints/latest", name + "\n");
+  // Later ones belong to a run that this one replaces, or are damaged.
   auto const all = list_checkpoints(*world.comm, directory);
+  std::size_t const present = static_cast<std::size_t>(std::find(all.begin(), all.end(), path) - all.begin());
   if (world.comm->rank() == 0)
-    for (std::size_t i = checkpoints_kept; i < all.size(); ++i) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (i >= present && i < present + checkpoints_kept) continue;
       std::error_code ignored;
       std::filesystem::remove(all[i], ignored);
     }
+}
+
+void forget_checkpoints(parallel::Comm& comm, std::string const& directory) {
+  auto const all = list_checkpoints(comm, directory);
+  if (comm.rank() == 0) {
+    std::error_code ignored;
+    for (std::string const& path : all) std::filesystem::remove(path, ignored);
+    std::filesystem::remove(directory + "/checkpoints/latest", ignored);
+  }
+  comm.barrier();
 }
 
 void read_checkpoint(World& world, std::string const& path) {

@@ -41,8 +41,10 @@ class History {
       while (std::getline(old, line))
         if (std::atoll(line.c_str()) <= step) kept += line + "\n";
     old.close();
-    std::ofstream(path_) << kept;
-    if (interval_) next_ = std::floor(world.simulation->clock().time / *interval_) + 1;
+    std::ofstream file(path_);
+    file << kept << std::flush;
+    require(file.good(), Failure::system, path_ + ": cannot be written (is the disk full?)");
+    if (interval_) next_ = std::floor(world.simulation->clock().time / *interval_ * (1 + 1e-12)) + 1;
   }
   void row() {
     if (world_.comm->rank() != 0) return;
@@ -68,6 +70,7 @@ struct Job {
   std::string directory;
   StopOptions stop;
   std::vector<std::string> checkpoints;  ///< candidates to resume from, newest first; empty: from the start
+  bool same_scene = false;               ///< the scene is the one the directory keeps
 };
 
 void make_directories(parallel::Comm& comm, std::string const& directory) {
@@ -106,10 +109,13 @@ int execute(Job const& job, parallel::Comm& comm) {
   Simulation& simulation = *world->simulation;
   make_directories(comm, job.directory);
   log_to_file(job.directory + "/run.log");
-  parallel::write_text_atomically(comm, job.directory + "/scene.toml", job.loaded.text);
-  parallel::write_text_atomically(comm, job.directory + "/scene.resolved.toml", job.loaded.resolved());
-
   bool const fresh = job.checkpoints.empty();
+  if (!job.same_scene) {
+    parallel::write_text_atomically(comm, job.directory + "/scene.toml", job.loaded.text);
+    parallel::write_text_atomically(comm, job.directory + "/scene.resolved.toml", job.loaded.resolved());
+  }
+  if (fresh) forget_checkpoints(comm, job.directory);
+
   if (fresh)
     start(*world, scene);
   else
@@ -133,8 +139,9 @@ int execute(Job const& job, parallel::Comm& comm) {
 
   stop_signal = 0;
   for (int const s : {SIGTERM, SIGINT, SIGUSR1}) std::signal(s, note_signal);
-  double checkpoint_number =
-      scene.output.checkpoint_interval ? std::floor(simulation.clock().time / *scene.output.checkpoint_interval) : 0;
+  double checkpoint_number = scene.output.checkpoint_interval
+                                 ? std::floor(simulation.clock().time / *scene.output.checkpoint_interval * (1 + 1e-12))
+                                 : 0;
   double last_report = seconds_now();
   int warnings = 0;
   bool stopped = false;
@@ -192,7 +199,7 @@ int execute(Job const& job, parallel::Comm& comm) {
 
 int run_scene(RunOptions const& options, parallel::Comm& comm) {
   start_log(comm, options.quiet);
-  Job job{load_scene(options.scene, options.overrides, comm), options.out, options.stop, {}};
+  Job job{load_scene(options.scene, options.overrides, comm), options.out, options.stop, {}, false};
   if (options.restart) {
     job.checkpoints =
         *options.restart == "auto" ? list_checkpoints(comm, options.out) : std::vector<std::string>{*options.restart};
@@ -203,7 +210,7 @@ int run_scene(RunOptions const& options, parallel::Comm& comm) {
 int restart_run(RestartOptions const& options, parallel::Comm& comm) {
   start_log(comm, options.quiet);
   Job job{load_scene(options.directory + "/scene.resolved.toml", {}, comm), options.directory, options.stop,
-          list_checkpoints(comm, options.directory)};
+          list_checkpoints(comm, options.directory), true};
   require(!job.checkpoints.empty(), Failure::system,
           options.directory + ": there is no checkpoint to continue from; start the scene with \"brisance run\"");
   return execute(job, comm);

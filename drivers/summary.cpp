@@ -29,9 +29,8 @@ void update_extrema(World& world, RunState& run) {
   std::array<double, 1> high{e.mach_max};
   world.comm->min(low);
   world.comm->max(high);
-  bool const first = run.density_min == 0 && run.pressure_min == 0;
-  run.density_min = first ? low[0] : min(run.density_min, low[0]);
-  run.pressure_min = first ? low[1] : min(run.pressure_min, low[1]);
+  run.density_min = min(run.density_min, low[0]);
+  run.pressure_min = min(run.pressure_min, low[1]);
   run.mach_max = max(run.mach_max, high[0]);
 }
 

@@ -1,5 +1,6 @@
 // summary.json of the contract, and the row of history.csv.
 #pragma once
+#include <limits>
 #include <string>
 
 #include "drivers/assembly.hpp"
@@ -10,8 +11,8 @@ struct RunState {
   std::string scene;
   std::string exit = "running";  ///< running, done, stopped, failed
   double setup_s = 0, wall_s = 0;
-  Real density_min = 0, pressure_min = 0, mach_max = 0;  ///< over the run
-  std::int64_t first_step = 0;                           ///< of this process: rates count from here
+  Real density_min = std::numeric_limits<Real>::infinity(), pressure_min = density_min, mach_max = 0;  ///< over the run
+  std::int64_t first_step = 0;  ///< of this process: rates count from here
 };
 
 /// Collective. Extremes of the present state join those of the run.

@@ -12,6 +12,8 @@ endfunction()
 brisance_same_digest(explosion-cylinder ${scenes}/explosion-cylinder.toml 60)
 brisance_same_digest(explosion-box-3d ${scenes}/explosion-box-3d.toml 24 --set fluid.block=24)
 brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40)
+brisance_same_digest(bodies-leave ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-leave.toml 240)
+brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 60)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
 
 # Faults of bodies and ranks: scene errors, nothing written.
@@ -37,4 +39,6 @@ add_test(NAME full_disk COMMAND ${PROJECT_SOURCE_DIR}/tests/support/full_disk.sh
                                 ${scenes}/explosion-cylinder.toml)
 add_test(NAME stop_by_signal COMMAND ${PROJECT_SOURCE_DIR}/tests/support/stop_by_signal.sh ${program} ${runs}/signal
                                      ${scenes}/explosion-cylinder.toml)
-set_tests_properties(truncated_checkpoint full_disk stop_by_signal PROPERTIES LABELS restart TIMEOUT 300)
+add_test(NAME fresh_run COMMAND ${PROJECT_SOURCE_DIR}/tests/support/fresh_run.sh ${program} ${runs}/fresh
+                                ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml)
+set_tests_properties(truncated_checkpoint full_disk stop_by_signal fresh_run PROPERTIES LABELS restart TIMEOUT 300)
