@@ -76,7 +76,11 @@ TEST(UniformMotion, OrderEleven) {
   for (Body const& body : bodies()) check(body, false, 11);
 }
 
-TEST(UniformMotion, PeriodicSides) { check(bodies()[0], true, 11); }
+/// A body must keep away from periodic sides by what a sweep reaches over.
+TEST(UniformMotion, PeriodicSides) {
+  check({"small disk polygon", polygon_body(regular_polygon(60, 0.09, {0.33, 0.33, 0}, 0.1)), {0.31, 0.27, 0}}, true,
+        11);
+}
 
 TEST(UniformMotion, LowerOrders) {
   std::vector<Body> const all = bodies();
