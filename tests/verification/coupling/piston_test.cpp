@@ -70,8 +70,7 @@ TEST(Piston, ExactSolutionIsThatOfTheTable) {
 }
 
 TEST(Piston, CellPressure) {
-  for (int const order : evidence::full() ? std::vector{5, 11} : std::vector{11})
-    check(200, order, "cell", 5e-5, 5e-5);
+  for (int const order : evidence::full() ? std::vector{5, 11} : std::vector{11}) check(200, order, "cell", 5e-5, 5e-5);
 }
 
 TEST(Piston, HalfRiemannPressure) {

@@ -43,6 +43,8 @@ std::vector<Body> bodies() {
       {"sliver on a grid line along x", polygon_body(rectangle({0.3, 12.15 * h, 0}, {0.15, 0.15 * h, 0}, 0)), along_x,
        heavy},
       {"square on grid lines along the diagonal", square({8 * h, 8 * h}, 8 * h), diagonal},
+      {"diamond with its corners on nodes along the diagonal",
+       polygon_body({16 * h, 12 * h, 12 * h, 16 * h, 8 * h, 12 * h, 12 * h, 8 * h}), diagonal},
   };
 }
 
