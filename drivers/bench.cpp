@@ -7,7 +7,6 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "core/base/errors.hpp"
 #include "core/solid/bench_links.hpp"
@@ -47,9 +46,9 @@ std::vector<Bench> all_benches() {
     for (int order = 1; order <= 11; order += 2)
       benches.push_back({fmt::format("fluid.{}d.order{}", dimension, order),
                          [=](auto const& roofs) { return fluid::bench_sweep(order, dimension, roofs); }});
-  for (auto const& [place, side] : {std::pair{"cache", Index{10}}, std::pair{"memory", Index{96}}})
-    benches.push_back({fmt::format("solid.links.{}", place),
-                       [=](auto const& roofs) { return link_row(fmt::format("solid.links.{}", place), side, roofs); }});
+  benches.push_back({"solid.links.cache", [](auto const& roofs) { return link_row("solid.links.cache", 10, roofs); }});
+  benches.push_back(
+      {"solid.links.memory", [](auto const& roofs) { return link_row("solid.links.memory", 96, roofs); }});
   benches.push_back({"coupling.cut_cells",
                      [](auto const&) { return geometry_row("coupling.cut_cells", coupling::bench_cut_cells()); }});
   benches.push_back({"coupling.closest_points", [](auto const&) {
