@@ -1,6 +1,7 @@
 // brisance check: validates a scene and says what a run would do, hold and cost; runs nothing.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -54,7 +55,7 @@ FluidStep initial_acoustic_step(fluid::FlowConfig const& flow, fluid::Grid const
 }
 
 /// Cell-steps per second of this machine, measured on a small box in a few milliseconds.
-Real measured_rate(fluid::FlowConfig const& config, fluid::Grid const& grid, parallel::Comm& comm) {
+Real measured_rate(fluid::FlowConfig const& config, fluid::Grid const& grid) {
   fluid::Grid small = grid;
   for (std::size_t d = 0; d < 3; ++d)
     small.cells[d] = d < static_cast<std::size_t>(grid.dimension) ? (grid.dimension == 3   ? 32
@@ -67,7 +68,6 @@ Real measured_rate(fluid::FlowConfig const& config, fluid::Grid const& grid, par
   fluid::FlowConfig plain = config;
   plain.region.clear();
   plain.charge.clear();
-  (void)comm;
   auto const alone = parallel::serial();
   fluid::Flow flow(plain, small, std::vector<int>(static_cast<std::size_t>(small.block_count()), 0), *alone);
   Real const dt = 1e-9;
@@ -139,7 +139,7 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
     bytes[static_cast<std::size_t>(partition.owner[static_cast<std::size_t>(blocks + p)])] += 2500;
   Real const most = *std::max_element(bytes.begin(), bytes.end());
 
-  Real const rate = scene.fluid && scene.fluid->euler ? measured_rate(*scene.fluid, *grid, comm) : 0;
+  Real const rate = scene.fluid && scene.fluid->euler ? measured_rate(*scene.fluid, *grid) : 0;
   Real const cut_cost = grid && grid->dimension == 3 ? 60e-6 : 5e-6;  // s per cut cell and step, from `brisance bench`
   Real per_step = (rate > 0 ? static_cast<Real>(cells) / rate : 0) + cut_cost * static_cast<Real>(cut) +
                   5e-8 * static_cast<Real>(links);

@@ -129,7 +129,6 @@ int execute(Job const& job, parallel::Comm& comm) {
   History history(*world, job.directory, scene.output.history_interval);
   RunState run;
   run.scene = job.loaded.path;
-  run.first_step = simulation.clock().step;
   run.setup_s = seconds_now() - begin;
   update_extrema(*world, run);
   if (world->flow)

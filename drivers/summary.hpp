@@ -12,7 +12,6 @@ struct RunState {
   std::string exit = "running";  ///< running, done, stopped, failed
   double setup_s = 0, wall_s = 0;
   Real density_min = std::numeric_limits<Real>::infinity(), pressure_min = density_min, mach_max = 0;  ///< over the run
-  std::int64_t first_step = 0;  ///< of this process: rates count from here
 };
 
 /// Collective. Extremes of the present state join those of the run.
