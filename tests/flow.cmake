@@ -15,7 +15,6 @@ brisance_test(fluid_conservation
   SOURCES verification/fluid/conservation_test.cpp
   LINKS brisance::fluid
   LABELS verification)
-brisance_test(fluid_reflection SOURCES verification/fluid/reflection_test.cpp LINKS brisance::fluid LABELS verification)
 brisance_test(fluid_spherical_blast
   SOURCES verification/fluid/spherical_blast_test.cpp
   LINKS brisance::fluid
