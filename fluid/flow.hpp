@@ -36,7 +36,7 @@ class Flow {
   Flow& operator=(Flow const&) = delete;
 
   Grid const& grid() const { return grid_; }
-  IdealGas const& gas() const { return gas_; }
+  Gas const& gas() const { return gas_; }
   int order() const { return order_; }
   parallel::Comm& comm() const { return comm_; }
   /// Owned blocks, ascending ids.
@@ -68,7 +68,7 @@ class Flow {
   void sweep_block(Block& block, int direction, Real dt, SweepReport& total);
 
   Grid grid_;
-  IdealGas gas_;
+  Gas gas_;
   int order_;
   std::vector<int> owner_;
   parallel::Comm& comm_;

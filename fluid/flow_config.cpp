@@ -41,6 +41,24 @@ void check_charge(ChargeConfig const& charge, std::string const& name) {
 
 }  // namespace
 
+void JwlConfig::keys(Keys<JwlConfig>& k) {
+  k("a", &JwlConfig::a, "Pa", "A").at_least(0);
+  k("b", &JwlConfig::b, "Pa", "B").at_least(0);
+  k("r1", &JwlConfig::r1, "1", "R1").above(0);
+  k("r2", &JwlConfig::r2, "1", "R2").above(0);
+  k("omega", &JwlConfig::omega, "1", "omega, the Grueneisen coefficient").above(0);
+  k("density", &JwlConfig::density, "kg/m3", "density of the explosive, rho0").above(0);
+  k("energy", &JwlConfig::energy, "Pa", "energy of detonation per volume of explosive, E0 (J/m3 = Pa)").above(0);
+}
+
+void GasConfig::keys(Keys<GasConfig>& k) {
+  k("law", &GasConfig::law, "", "equation of state").one_of({"ideal", "stiffened", "jwl"});
+  k("gamma", &GasConfig::gamma, "1", "ideal, stiffened: ratio of specific heats (water 4.4)").above(1);
+  k("stiffness", &GasConfig::stiffness, "Pa", "stiffened: p_inf (water 600 MPa)").at_least(0);
+  k("gas_constant", &GasConfig::gas_constant, "J/kg/K", "ideal: specific gas constant, for temperatures").above(0);
+  k("jwl", &GasConfig::jwl, "", "jwl: parameters of the detonation products; not given: TNT");
+}
+
 std::string const& BoundaryConfig::side(int d, int side) const {
   std::string const* const all[6] = {&x_low, &x_high, &y_low, &y_high, &z_low, &z_high};
   return *all[2 * d + side];
@@ -143,7 +161,7 @@ Grid make_grid(FlowConfig const& config) {
   return grid;
 }
 
-IdealGas make_gas(FlowConfig const& config) {
+Gas make_gas(FlowConfig const& config) {
   Real density = config.ambient.density, pressure = config.ambient.pressure;
   if (!(density > 0) || !(pressure > 0)) {
     density = pressure = 0;
@@ -151,12 +169,42 @@ IdealGas make_gas(FlowConfig const& config) {
     for (RegionConfig const& region : config.region) include(region.density, region.pressure);
     for (ChargeConfig const& charge : config.charge) include(charge.density.value_or(0), charge.pressure.value_or(0));
   }
-  IdealGas gas;
+  Gas gas;
   gas.gamma = config.gas.gamma;
+  gas.gas_constant = config.gas.gas_constant;
+  if (config.gas.law == "stiffened") gas.curve.stiffness = config.gas.stiffness;
+  if (config.gas.law == "jwl") {
+    JwlConfig const& jwl = config.gas.jwl;
+    gas.gamma = 1 + jwl.omega;
+    gas.curve = {0, jwl.a, jwl.b, jwl.r1, jwl.r2, jwl.density};
+  }
   gas.vacuum_density = 1e-10 * density;
   gas.vacuum_energy = 1e-12 * pressure / gas.kappa();
   return gas;
 }
+
+namespace {
+
+/// States off the admissible set of the equation of state (theory/fluid.md 1.2).
+void check_states(FlowConfig const& config) {
+  Gas const gas = make_gas(config);
+  auto const check_state = [&](Location const& at, std::string const& name, Real density, Real pressure) {
+    if (!(density > 0) || gas.curve.zero()) return;
+    Real const least = gas.reference_pressure(density);
+    demand(pressure > least, at,
+           name + ": a pressure of " + std::to_string(pressure) + " Pa is below the reference curve of the " +
+               config.gas.law + " law at this density; it must exceed " + std::to_string(least) + " Pa.");
+  };
+  check_state(config.at, "fluid.ambient", config.ambient.density, config.ambient.pressure);
+  for (std::size_t r = 0; r < config.region.size(); ++r)
+    check_state(config.region[r].at, "fluid.region[" + std::to_string(r) + "]", config.region[r].density,
+                config.region[r].pressure);
+  for (std::size_t c = 0; c < config.charge.size(); ++c)
+    if (ChargeConfig const& charge = config.charge[c]; charge.density && charge.pressure)
+      check_state(charge.at, "fluid.charge[" + std::to_string(c) + "]", *charge.density, *charge.pressure);
+}
+
+}  // namespace
 
 void check(FlowConfig const& config) {
   int const n = dimension(config);
@@ -175,6 +223,7 @@ void check(FlowConfig const& config) {
     check_region(config.region[r], "fluid.region[" + std::to_string(r) + "]");
   for (std::size_t c = 0; c < config.charge.size(); ++c)
     check_charge(config.charge[c], "fluid.charge[" + std::to_string(c) + "]");
+  check_states(config);
 }
 
 }  // namespace brisance::fluid

@@ -5,18 +5,25 @@
 #include <vector>
 
 #include "core/base/keys.hpp"
-#include "fluid/gas/ideal_gas.hpp"
+#include "fluid/gas/gas.hpp"
 #include "fluid/grid/grid.hpp"
 
 namespace brisance::fluid {
 
+/// Detonation products; the defaults are TNT (Dobratz & Crawford 1985).
+struct JwlConfig {
+  double a = 371.2e9, b = 3.231e9, r1 = 4.15, r2 = 0.95, omega = 0.30, density = 1630, energy = 7.0e9;
+  static void keys(Keys<JwlConfig>& k);
+};
+
 struct GasConfig {
-  std::string law = IdealGas::name;
+  std::string law = "ideal";
   double gamma = 1.4;
-  static void keys(Keys<GasConfig>& k) {
-    k("law", &GasConfig::law, "", "equation of state").one_of({IdealGas::name});
-    k("gamma", &GasConfig::gamma, "1", "ratio of specific heats").above(1);
-  }
+  double stiffness = 0;
+  double gas_constant = 287.05;
+  JwlConfig jwl;
+  Location at;
+  static void keys(Keys<GasConfig>& k);
 };
 
 struct GasState {
@@ -106,7 +113,7 @@ Grid make_grid(FlowConfig const& config);
 
 /// The gas with its vacuum thresholds, relative to the ambient state or, where that is vacuum, to the largest initial
 /// values. Source: theory/fluid.md 1.5.
-IdealGas make_gas(FlowConfig const& config);
+Gas make_gas(FlowConfig const& config);
 
 /// Checks what keys alone cannot: shapes have their dimensions, charges are determined, inflow sides have a state.
 /// Errors: scene errors with the place in the scene.

@@ -119,7 +119,8 @@ void add_by_energy(Flow& flow, FlowConfig const& config, ChargeConfig const& cha
     require_volume(balloon, charge);
   }
   Real const filled = balloon.fluid_volume();
-  Real const energy = config.ambient.pressure / flow.gas().kappa() + tnt_energy * charge.tnt_factor * mass / filled;
+  Real const energy = flow.gas().energy_at_rest(mass / filled, config.ambient.pressure) +
+                      tnt_energy * charge.tnt_factor * mass / filled;
   balloon.store({mass / filled, 0, 0, 0, energy});
 }
 
@@ -143,7 +144,9 @@ void add_by_state(Flow& flow, FlowConfig const& config, ChargeConfig const& char
         sampled += covered_by_ball(grid, c, charge.centre, *charge.radius, samples_of_charge) * grid.cell_volume();
   Real const exact = ball_volume(grid.dimension, *charge.radius);
   Real const scale = sampled > 0 ? exact / sampled : 1;
-  Real const ambient = config.ambient.pressure / flow.gas().kappa(), hot = *charge.pressure / flow.gas().kappa();
+  Gas const& gas = flow.gas();
+  Real const ambient = gas.energy_at_rest(config.ambient.density, config.ambient.pressure);
+  Real const hot = gas.energy_at_rest(*charge.density, *charge.pressure);
   balloon.store({*charge.density * scale, 0, 0, 0, ambient + (hot - ambient) * scale});
 }
 
@@ -160,7 +163,7 @@ void fill(Flow& flow, std::function<State(CellIndex)> const& state) {
 }
 
 void fill(Flow& flow, FlowConfig const& config, FluidVolume const& volume) {
-  IdealGas const& gas = flow.gas();
+  Gas const& gas = flow.gas();
   State const ambient = gas.conserved(config.ambient.density, config.ambient.velocity, config.ambient.pressure);
   std::vector<State> inside;
   for (RegionConfig const& region : config.region)

@@ -25,7 +25,7 @@ void for_cells(Blocks& blocks, Visit&& visit) {
   }
 }
 
-Vec3 velocity(IdealGas const& gas, State const& u) { return gas.vacuum(u) ? Vec3{} : Vec3{u[1], u[2], u[3]} / u[0]; }
+Vec3 velocity(Gas const& gas, State const& u) { return gas.vacuum(u) ? Vec3{} : Vec3{u[1], u[2], u[3]} / u[0]; }
 
 }  // namespace
 
@@ -73,7 +73,7 @@ std::vector<std::string> const& cell_field_names() {
 }
 
 CellField cell_field(Flow const& flow, std::string const& name) {
-  IdealGas const& gas = flow.gas();
+  Gas const& gas = flow.gas();
   CellField field;
   field.columns = name == "velocity" ? 3 : 1;
   field.data.reserve(cells_of(flow) * static_cast<std::size_t>(field.columns));

@@ -10,8 +10,7 @@ namespace {
 
 /// |u_d| + c per direction; 0 in vacuum. `V`: a double or a pack.
 template <class V>
-std::array<V, 3> cell_speeds(V const& density, V const& mx, V const& my, V const& mz, V const& energy,
-                             IdealGas const& gas) {
+std::array<V, 3> cell_speeds(V const& density, V const& mx, V const& my, V const& mz, V const& energy, Gas const& gas) {
   V const zero(0.0);
   Mask<V> const some = density > V(gas.vacuum_density);
   V const r = V(1.0) / select(some, density, V(1.0));
@@ -26,7 +25,7 @@ struct RowMax {
   std::array<Pack, 3> pack{Pack(0.0), Pack(0.0), Pack(0.0)};
   std::array<Real, 3> scalar{};
 
-  void row(std::array<Real const*, 5> const& u, Index n, IdealGas const& gas) {
+  void row(std::array<Real const*, 5> const& u, Index n, Gas const& gas) {
     constexpr Index width = static_cast<Index>(Pack::size);
     Index i = 0;
     for (; i + width <= n; i += width) {
@@ -36,7 +35,7 @@ struct RowMax {
     }
     for (; i < n; ++i) cell(u, i, gas);
   }
-  void cell(std::array<Real const*, 5> const& u, Index i, IdealGas const& gas) {
+  void cell(std::array<Real const*, 5> const& u, Index i, Gas const& gas) {
     auto const s = cell_speeds(u[0][i], u[1][i], u[2][i], u[3][i], u[4][i], gas);
     for (std::size_t d = 0; d < 3; ++d) scalar[d] = max(scalar[d], s[d]);
   }

@@ -83,7 +83,7 @@ Totals totals(Flow const& flow, FluidVolume const& volume) {
 }
 
 Extremes extremes(Flow const& flow, FluidVolume const& volume) {
-  IdealGas const& gas = flow.gas();
+  Gas const& gas = flow.gas();
   constexpr Real infinite = std::numeric_limits<Real>::infinity();
   Extremes e{infinite, infinite, 0};
   for_cells(flow, volume, [&](CellIndex, State const& u, Real) {

@@ -9,8 +9,8 @@ namespace brisance::coupling {
 using fluid::State;
 
 Real CutCells::half_riemann(State const& u, Vec3 const& wall_velocity, Vec3 const& area) const {
-  if (config_.wall_pressure == "cell") return 1;
-  fluid::IdealGas const& gas = flow_.gas();
+  fluid::Gas const& gas = flow_.gas();
+  if (config_.wall_pressure == "cell" || !gas.curve.zero()) return 1;  // the factor is that of an ideal gas
   Real const c = gas.sound_speed(u);
   if (!(c > 0)) return 1;
   Vec3 const velocity = Vec3{u[1], u[2], u[3]} / u[0];

@@ -35,20 +35,25 @@ constexpr std::array<std::array<std::size_t, 5>, 3> sweep_component{
     {{0, 1, 2, 3, 4}, {0, 2, 1, 3, 4}, {0, 3, 2, 1, 4}}};
 
 /// Health bits of a full cell after a sweep, with the bands of theory/fluid.md 4.4.
-std::uint64_t judge(State const& u, fluid::IdealGas const& gas) {
+std::uint64_t judge(State const& u, fluid::Gas const& gas) {
   auto const bit = [](fluid::Health h) { return static_cast<std::uint64_t>(h); };
   if (!(std::abs(u[0]) < 1e300) || !(std::abs(u[4]) < 1e300)) return bit(fluid::Health::not_finite);
   if (!(u[0] >= -1e-3 * gas.vacuum_density)) return bit(fluid::Health::negative_density);
-  Real const twice = 2 * u[0] * u[4] - (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]);  // 2 rho phi
+  Real const rest = gas.curve.zero() ? u[4] : u[4] - gas.reference_energy(max(u[0], gas.vacuum_density));
+  Real const twice = 2 * u[0] * rest - (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]);  // 2 rho phi
   if (!(twice >= -2e-13 * std::abs(u[0] * u[4]))) return bit(fluid::Health::negative_energy);
   return 0;
 }
 
-/// Is sigma (|u| + c) above 1 before the sweep? Without root or division: gamma p rho against (rho / sigma - |m|)^2.
-std::uint64_t courant(Real density, Real momentum, Real pressure, Real sigma, fluid::IdealGas const& gas) {
-  if (!(pressure > 0)) return 0;  // vacuum
+/// Is sigma (|u| + c) above 1 before the sweep? Without root or division: (rho c)^2 against (rho / sigma - |m|)^2.
+std::uint64_t courant(Real density, Real momentum, Real pressure, Real sigma, fluid::Gas const& gas) {
+  Real const thermal =
+      gas.curve.zero() ? pressure : pressure - gas.reference_pressure(max(density, gas.vacuum_density));
+  if (!(thermal > 0)) return 0;  // vacuum
   Real const room = density / sigma - std::abs(momentum);
-  bool const bad = room < 0 || gas.gamma * pressure * density > room * room;
+  Real impedance2 = gas.gamma * thermal * density;
+  if (gas.curve.exponential()) impedance2 += density * density * gas.reference_slope(density);
+  bool const bad = room < 0 || impedance2 > room * room;
   return bad ? static_cast<std::uint64_t>(fluid::Health::courant) : 0;
 }
 

@@ -10,7 +10,7 @@ std::function<void(Block&, int, int)> filler(Law const& law) {
 
 }  // namespace
 
-Boundaries::Boundaries(FlowConfig const& config, IdealGas const& gas) {
+Boundaries::Boundaries(FlowConfig const& config, Gas const& gas) {
   int const n = dimension(config);
   for (int d = 0; d < n; ++d)
     for (int s = 0; s < 2; ++s) {

@@ -34,7 +34,7 @@ void fill_ghosts(Law const& law, Block& block, int direction, int side) {
 /// What stands at the sides of the domain, chosen once when the scene is read.
 class Boundaries {
  public:
-  Boundaries(FlowConfig const& config, IdealGas const& gas);
+  Boundaries(FlowConfig const& config, Gas const& gas);
   /// Fills the ghosts of a block whose `side` (0 low, 1 high) lies on the side of the domain.
   void fill(Block& block, int direction, int side) const { at(direction, side).fill(block, direction, side); }
   std::string const& law(int direction, int side) const { return at(direction, side).name; }

@@ -75,7 +75,7 @@ Grid periodic_box(Index side) {
   return grid;
 }
 
-void fill(Block& block, Index n, IdealGas const& gas) {
+void fill(Block& block, Index n, Gas const& gas) {
   using std::cos, std::sin;
   Real const turn = 2 * std::numbers::pi / n;
   for (Index k = 0; k < n; ++k)
@@ -132,7 +132,7 @@ Real sweep_operations(int order) {
 BenchRow bench_sweep(int order, int dimension, MachineRoofs const& roofs, Index side) {
   Grid const grid = periodic_box(side);
   Block block(grid, 0, ghost_depth(order));
-  IdealGas const gas{1.4, 1e-10, 1e-12};
+  Gas const gas{1.4, 1e-10, 1e-12};
   fill(block, side, gas);
   CellBox box{{}, block.size(), block.stride(), dimension};
   for (int q = 0; q < 5; ++q) box.u[static_cast<std::size_t>(q)] = block.component(q);

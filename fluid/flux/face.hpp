@@ -2,7 +2,7 @@
 // Source: theory/fluid.md 2.3, 2.6 (Roe, entropy cure), 4.1 (low-order flux), 4.3 (vacuum).
 #pragma once
 #include "fluid/flux/osmp.hpp"
-#include "fluid/gas/ideal_gas.hpp"
+#include "fluid/gas/gas.hpp"
 
 namespace brisance::fluid {
 
@@ -13,7 +13,7 @@ struct SweepConstants {
   V vacuum_density, vacuum_energy;
   V hlle_limit;  ///< m/s: above this signal speed the low-order flux is LLF (theory/fluid.md 4.1)
 
-  SweepConstants(IdealGas const& gas, Real sigma_)
+  SweepConstants(Gas const& gas, Real sigma_)
       : gamma(gas.gamma),
         kappa(gas.kappa()),
         sigma(sigma_),
@@ -25,7 +25,7 @@ struct SweepConstants {
   /// 0.8 up to gamma = 3; up to 5/3 the same random test (3 million triples a gamma, one face at this number, the other
   /// at most at 1) finds nothing at 0.91 either, and LLF between 0.8 and 0.9 would double the error of strong shocks
   /// run at Courant 0.9 (F18d, F18e). The half per cent keeps rounding from deciding in a scene run at 0.9.
-  static Real hlle_courant(IdealGas const& gas) {
+  static Real hlle_courant(Gas const& gas) {
     if (gas.gamma <= 1.67) return 0.905;
     return gas.kappa() <= 2 ? 0.8 : 0.5;
   }

@@ -5,7 +5,7 @@
 
 namespace brisance::fluid {
 
-State low_order_flux(State const& left, State const& right, int direction, Real sigma, IdealGas const& gas) {
+State low_order_flux(State const& left, State const& right, int direction, Real sigma, Gas const& gas) {
   // The kernel's own text on one lane, so that the rule exists once.
   SweepConstants<Real> const constants(gas, sigma);
   auto const component = sweep_components(direction);

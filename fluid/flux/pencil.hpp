@@ -72,7 +72,7 @@ class Pencil {
   static constexpr int lanes = lanes_of<V>;
 
   /// Advances cells 0..n-1 by one sweep; `report` gathers.
-  void sweep(PencilData const& data, RunData const* runs, Real sigma, IdealGas const& gas, PencilReport<V>& report) {
+  void sweep(PencilData const& data, RunData const* runs, Real sigma, Gas const& gas, PencilReport<V>& report) {
     SweepConstants<V> const k(gas, sigma);
     faces_.restart(), thirds_.restart();
     for (V& x : faces_[newest - 1].low_flux)
@@ -264,7 +264,7 @@ class Pencil {
   }
 
   BRISANCE_INLINE void update(V const* difference, V const* before, PencilData const& data, Index c,
-                              SweepConstants<V> const& k, IdealGas const& gas, PencilReport<V>& report) {
+                              SweepConstants<V> const& k, Gas const& gas, PencilReport<V>& report) {
     V x[5];
     Face<V> const& face = faces_[here];
     BRISANCE_UNROLL for (std::size_t q = 0; q < 5; ++q) {
@@ -282,7 +282,7 @@ class Pencil {
   }
 
   [[gnu::noinline, gnu::cold]] void judge_cell(PencilData const& data, Index c, std::uint32_t lanes_asked,
-                                               IdealGas const& gas, PencilReport<V>& report) {
+                                               Gas const& gas, PencilReport<V>& report) {
     for (int lane = 0; lane < lanes; ++lane) {
       if (!(lanes_asked >> lane & 1)) continue;
       State u;

@@ -26,7 +26,7 @@ Real limited_share(Real const (&left)[5], Real const (&right)[5], Real const (&d
   return share >= 0 ? share : 0;  // a NaN difference keeps nothing of it
 }
 
-std::uint64_t judge(State const& u, IdealGas const& gas) {
+std::uint64_t judge(State const& u, Gas const& gas) {
   std::uint64_t bits = 0;
   for (Real const x : u)
     if (!std::isfinite(x)) bits |= static_cast<std::uint64_t>(Health::not_finite);

@@ -63,6 +63,6 @@ BRISANCE_INLINE Mask<V> suspect(V const* x) {
 }
 /// Health bits of one new state. Source: theory/fluid.md 4.4: density >= -1e-13 reference density, internal energy
 /// >= -1e-13 |E|.
-std::uint64_t judge(State const& u, IdealGas const& gas);
+std::uint64_t judge(State const& u, Gas const& gas);
 
 }  // namespace brisance::fluid

@@ -9,12 +9,12 @@ namespace brisance::fluid {
 namespace detail {
 // Instantiated in sweep_order<N>.cpp, one order per file so that they compile side by side.
 template <int Order>
-SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, IdealGas const& gas);
+SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, Gas const& gas);
 template <int Order>
-SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, IdealGas const& gas);
+SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas);
 }  // namespace detail
 
-SweepReport sweep_box(int order, CellBox const& box, int direction, Real sigma, IdealGas const& gas) {
+SweepReport sweep_box(int order, CellBox const& box, int direction, Real sigma, Gas const& gas) {
   switch (order) {
     case 1:
       return detail::sweep_box_of<1>(box, direction, sigma, gas);
@@ -33,8 +33,7 @@ SweepReport sweep_box(int order, CellBox const& box, int direction, Real sigma, 
   }
 }
 
-SweepReport sweep_lines(int order, LineBundle const& lines, std::uint32_t valid_lanes, Real sigma,
-                        IdealGas const& gas) {
+SweepReport sweep_lines(int order, LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas) {
   switch (order) {
     case 1:
       return detail::sweep_lines_of<1>(lines, valid_lanes, sigma, gas);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fluid/gas/ideal_gas.hpp"
+#include "fluid/gas/gas.hpp"
 #include "fluid/grid/grid.hpp"
 
 namespace brisance::fluid {
@@ -48,7 +48,7 @@ struct CellBox {
 /// In place: cell means at t -> after the sweep along `direction`. Ghosts of that direction must be filled.
 /// Shape: any size; what is narrower than a vector is padded. Units: sigma = dt/h in s/m.
 /// Errors: raises health bits (theory/fluid.md 4.4, 4.6), never throws. Source: theory/fluid.md 2-4.
-SweepReport sweep_box(int order, CellBox const& box, int direction, Real sigma, IdealGas const& gas);
+SweepReport sweep_box(int order, CellBox const& box, int direction, Real sigma, Gas const& gas);
 
 /// Lanes of the vector this build uses.
 int lanes();
@@ -69,6 +69,6 @@ struct LineBundle {
 /// As sweep_box for runs between walls (theory/coupling.md 1.9). `flux_low/high`, `where` and health are left empty:
 /// the caller judges. Faces see neighbours only through `u`: mirror cells stand there. Counts fallback faces per lane
 /// mask.
-SweepReport sweep_lines(int order, LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, IdealGas const& gas);
+SweepReport sweep_lines(int order, LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas);
 
 }  // namespace brisance::fluid

@@ -8,9 +8,9 @@
 namespace brisance::fluid::detail {
 
 template <int Order>
-SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, IdealGas const& gas);
+SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, Gas const& gas);
 template <int Order>
-SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, IdealGas const& gas);
+SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas);
 
 inline constexpr int width = lanes_of<Pack>;
 
@@ -70,7 +70,7 @@ inline void scatter(std::array<Real*, 5> const& u, Lanes const& lanes, std::ptrd
 template <int Order>
 class BoxSweep {
  public:
-  BoxSweep(CellBox const& box, int direction, Real sigma, IdealGas const& gas)
+  BoxSweep(CellBox const& box, int direction, Real sigma, Gas const& gas)
       : box_(box),
         sigma_(sigma),
         gas_(gas),
@@ -187,7 +187,7 @@ class BoxSweep {
 
   CellBox const& box_;
   Real const sigma_;
-  IdealGas const& gas_;
+  Gas const& gas_;
   std::size_t const along_, fast_, slow_;
   Index const n_;
   std::array<std::size_t, 5> const component_;
@@ -198,12 +198,12 @@ class BoxSweep {
 };
 
 template <int Order>
-SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, IdealGas const& gas) {
+SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, Gas const& gas) {
   return BoxSweep<Order>(box, direction, sigma, gas).run();
 }
 
 template <int Order>
-SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, IdealGas const& gas) {
+SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas) {
   PencilData data{lines.n, {}, {}, 5 * width, 5 * width, valid_lanes, valid_lanes, valid_lanes};
   for (std::size_t q = 0; q < 5; ++q) {
     data.in[q] = lines.u + q * width;
@@ -221,10 +221,10 @@ SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, R
   return report;
 }
 
-#define BRISANCE_INSTANTIATE_SWEEP(Order)                                                              \
-  namespace brisance::fluid::detail {                                                                  \
-  template SweepReport sweep_box_of<Order>(CellBox const&, int, Real, IdealGas const&);                \
-  template SweepReport sweep_lines_of<Order>(LineBundle const&, std::uint32_t, Real, IdealGas const&); \
+#define BRISANCE_INSTANTIATE_SWEEP(Order)                                                         \
+  namespace brisance::fluid::detail {                                                             \
+  template SweepReport sweep_box_of<Order>(CellBox const&, int, Real, Gas const&);                \
+  template SweepReport sweep_lines_of<Order>(LineBundle const&, std::uint32_t, Real, Gas const&); \
   }
 
 }  // namespace brisance::fluid::detail

@@ -90,7 +90,7 @@ inline std::string rigid_material(Real density) {
 /// Largest difference of density, velocity and pressure from a uniform state, over the cells that hold fluid.
 inline Real deviation(CoupledCase& c, Real density, Vec3 const& velocity, Real pressure) {
   Real largest = 0;
-  fluid::IdealGas const& gas = c.world->flow->gas();
+  fluid::Gas const& gas = c.world->flow->gas();
   c.for_fluid([&](fluid::CellIndex, fluid::State const& u, Real) {
     Vec3 const v = Vec3{u[1], u[2], u[3]} / u[0] - velocity;
     for (Real const x : {u[0] - density, v.x, v.y, v.z, gas.pressure(u) - pressure})

@@ -39,7 +39,7 @@ struct PlainFace {
   }
 };
 
-PlainCell evaluate(State const& x, IdealGas const& gas) {
+PlainCell evaluate(State const& x, Gas const& gas) {
   PlainCell c;
   c.vacuum = gas.vacuum(x);
   if (c.vacuum) return c;
@@ -50,7 +50,7 @@ PlainCell evaluate(State const& x, IdealGas const& gas) {
 }
 
 PlainFace face_between(State const& ul, State const& ur, PlainCell const& l, PlainCell const& r, double sigma,
-                       IdealGas const& gas) {
+                       Gas const& gas) {
   PlainFace f;
   double const al = abs(l.u) + l.c, ar = abs(r.u) + r.c, a = std::max(al, ar);
   f.vacuum = l.vacuum || r.vacuum;
@@ -149,7 +149,7 @@ double blending(State const (&low)[2], State const& difference, double sigma) {
 
 }  // namespace
 
-PlainSweep plain_sweep(PlainPencil const& pencil, int order, double sigma, IdealGas const& gas) {
+PlainSweep plain_sweep(PlainPencil const& pencil, int order, double sigma, Gas const& gas) {
   auto const& u = pencil.cells;
   std::vector<PlainCell> cell;
   for (State const& x : u) cell.push_back(evaluate(x, gas));

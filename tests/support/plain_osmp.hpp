@@ -3,11 +3,11 @@
 #pragma once
 #include <vector>
 
-#include "fluid/gas/ideal_gas.hpp"
+#include "fluid/gas/gas.hpp"
 
 namespace brisance::testing {
 
-using fluid::IdealGas;
+using fluid::Gas;
 using fluid::State;
 
 /// One pencil in sweep coordinates; `first` is the place of cell 0 in `cells`.
@@ -22,6 +22,6 @@ struct PlainSweep {
   std::vector<double> pressure;  ///< of cells 0..n-1 before the sweep
   int limited = 0;               ///< faces 0..n with theta < 1
 };
-PlainSweep plain_sweep(PlainPencil const& pencil, int order, double sigma, IdealGas const& gas);
+PlainSweep plain_sweep(PlainPencil const& pencil, int order, double sigma, Gas const& gas);
 
 }  // namespace brisance::testing

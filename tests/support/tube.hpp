@@ -16,7 +16,7 @@ class Tube {
   Tube(int n, double low, double high, double gamma, Ends ends, double density_scale, double pressure_scale);
   double h() const { return h_; }
   double edge(int i) const { return low_ + i * h_; }
-  fluid::IdealGas const& gas() const { return gas_; }
+  fluid::Gas const& gas() const { return gas_; }
   fluid::State& cell(int i) { return cells_[static_cast<std::size_t>(i)]; }
   fluid::State const& cell(int i) const { return cells_[static_cast<std::size_t>(i)]; }
   int size() const { return static_cast<int>(cells_.size()); }
@@ -31,7 +31,7 @@ class Tube {
 
  private:
   double low_, h_;
-  fluid::IdealGas gas_;
+  fluid::Gas gas_;
   Ends ends_;
   std::vector<fluid::State> cells_;
 };

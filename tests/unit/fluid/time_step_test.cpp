@@ -28,7 +28,7 @@ TEST(Directions, ArePalindromicPairsThatRotateInThreeDimensions) {
 }
 
 /// Random gas with vacuum cells here and there.
-State random_state(std::mt19937& random, IdealGas const& gas) {
+State random_state(std::mt19937& random, Gas const& gas) {
   std::uniform_real_distribution<Real> unit(0, 1);
   Real const kind = unit(random);
   if (kind < 0.1) return {0, 0, 0, 0, 0};

@@ -15,7 +15,7 @@ namespace brisance::fluid {
 namespace {
 
 /// The exact state at a point, after any number of whole periods.
-State vortex(IdealGas const& gas, Vec3 const& x) {
+State vortex(Gas const& gas, Vec3 const& x) {
   constexpr Real beta = 5, pi = std::numbers::pi;
   Real const dx = x.x - 5, dy = x.y - 5, r2 = dx * dx + dy * dy;
   Real const f = beta / (2 * pi) * std::exp((1 - r2) / 2);
@@ -25,7 +25,7 @@ State vortex(IdealGas const& gas, Vec3 const& x) {
 }
 
 /// The mean over a cell by 4 x 4 Gauss points.
-State cell_mean(Grid const& grid, IdealGas const& gas, CellIndex c) {
+State cell_mean(Grid const& grid, Gas const& gas, CellIndex c) {
   constexpr Real node[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
   constexpr Real weight[4] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
   State mean{};

@@ -54,13 +54,13 @@ struct PackTraits<Counted> {
 namespace brisance::fluid {
 namespace {
 
-State wave(Index c, IdealGas const& gas) {
+State wave(Index c, Gas const& gas) {
   return gas.conserved(1 + 0.3 * std::sin(0.4 * c), {0.5 * std::cos(0.3 * c), 0.1 * c / 20, -0.2},
                        1 + 0.4 * std::sin(0.2 * c + 1));
 }
 
 template <int Order, class V>
-std::vector<State> sweep_as(Index n, Real sigma, IdealGas const& gas, PencilReport<V>& report) {
+std::vector<State> sweep_as(Index n, Real sigma, Gas const& gas, PencilReport<V>& report) {
   constexpr Index ghosts = Stencil<Order>::ghosts;
   std::vector<State> cells;
   for (Index c = -ghosts; c < n + ghosts; ++c) cells.push_back(wave(c, gas));
@@ -73,7 +73,7 @@ std::vector<State> sweep_as(Index n, Real sigma, IdealGas const& gas, PencilRepo
 
 template <int Order>
 void check_order() {
-  IdealGas const gas{1.4, 1e-10, 1e-12};
+  Gas const gas{1.4, 1e-10, 1e-12};
   constexpr Index n = 24;
   Real const sigma = 0.4;
   PencilReport<Real> plain;

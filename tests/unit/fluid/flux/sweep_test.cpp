@@ -24,7 +24,7 @@ constexpr Index ghosts = 6, cells = 64;
 enum class Data { smooth, strong, vacuum };
 
 /// Cell c of pencil l: waves of all families; strong: jumps of 30 in pressure and of velocity; vacuum: holes besides.
-State sample(Index c, int l, Data data, IdealGas const& gas) {
+State sample(Index c, int l, Data data, Gas const& gas) {
   double const x = 2 * std::numbers::pi * c / cells + 0.7 * l;
   double rho = 1 + 0.3 * std::sin(x) + 0.1 * std::sin(5 * x), u = 0.5 * std::sin(2 * x + 1) + 0.3 * (l % 8 - 4);
   double const v = 0.2 * std::cos(3 * x), w = 0.1 * std::sin(x);
@@ -35,7 +35,7 @@ State sample(Index c, int l, Data data, IdealGas const& gas) {
   return gas.conserved(rho, {u, v, w}, p);
 }
 
-double fastest(Data data, IdealGas const& gas, int pencils) {
+double fastest(Data data, Gas const& gas, int pencils) {
   double signal = 0;
   for (int l = 0; l < pencils; ++l)
     for (Index c = -ghosts; c < cells + ghosts; ++c) {
@@ -47,7 +47,7 @@ double fastest(Data data, IdealGas const& gas, int pencils) {
 
 bool same_bits(State const& a, State const& b) { return std::memcmp(a.data(), b.data(), sizeof a) == 0; }
 
-IdealGas test_gas() { return {1.4, 1e-10, 1e-12}; }
+Gas test_gas() { return {1.4, 1e-10, 1e-12}; }
 
 struct Case {
   int order;
@@ -57,7 +57,7 @@ class SweepAgainstPlain : public ::testing::TestWithParam<Case> {};
 
 TEST_P(SweepAgainstPlain, EqualsTheSchemeWrittenPlainly) {
   auto const [order, data] = GetParam();
-  IdealGas const gas = test_gas();
+  Gas const gas = test_gas();
   constexpr int pencils = 19;  // full bundles and a padded one
   // 0.98: some low-order fluxes are HLLE, some LLF
   double const courant = data == Data::smooth ? 0.8 : 0.98, sigma = courant / fastest(data, gas, pencils);
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(AllOrders, SweepAgainstPlain, ::testing::ValuesIn(all_c
 
 /// Sweeps cells first..first+n-1 of pencil l as a block of its own and returns them.
 std::vector<State> sweep_part(int order, Index first, Index n, int pencils, Data data, double sigma) {
-  IdealGas const gas = test_gas();
+  Gas const gas = test_gas();
   FluxBox box({n, pencils, 1}, ghosts);
   for (int l = 0; l < pencils; ++l)
     for (Index c = -ghosts; c < n + ghosts; ++c) box.set(c, l, 0, sample(first + c, l, data, gas));
@@ -140,7 +140,7 @@ TEST(Sweep, BitsDoNotDependOnBlocksOrLanes) {
 }
 
 TEST(Sweep, CountsDoNotDependOnTheCut) {
-  IdealGas const gas = test_gas();
+  Gas const gas = test_gas();
   auto stronger = [&](Index c) {
     State x = sample(c, 0, Data::strong, gas);
     if (((c + 40) / 5) % 2) x[4] *= 1000;
@@ -167,7 +167,7 @@ TEST(Sweep, CountsDoNotDependOnTheCut) {
 }
 
 TEST(Sweep, DirectionsGiveTheSameBits) {
-  IdealGas const gas = test_gas();
+  Gas const gas = test_gas();
   double const sigma = 0.9 / fastest(Data::strong, gas, 30);
   for (int order : orders)
     for (Data data : {Data::strong, Data::vacuum}) {
@@ -214,7 +214,7 @@ TEST(Sweep, DirectionsGiveTheSameBits) {
 TEST(Sweep, UniformStatesKeepTheirBits) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> decade(-3, 3), mach(-1.5, 1.5);
-  IdealGas const gas{1.4, 1e-13, 1e-15};
+  Gas const gas{1.4, 1e-13, 1e-15};
   for (int trial = 0; trial < 200; ++trial) {
     double const rho = std::pow(10, decade(random)), p = std::pow(10, decade(random)), c = std::sqrt(1.4 * p / rho);
     Vec3 v{};
@@ -245,7 +245,7 @@ TEST(Sweep, EmptySpaceStaysEmpty) {
 }
 
 TEST(Sweep, HealthNamesTheFirstBadCell) {
-  IdealGas const gas = test_gas();
+  Gas const gas = test_gas();
   FluxBox box({16, 10, 1}, ghosts);
   auto fill = [&] {
     for (Index j = 0; j < 10; ++j)
@@ -294,7 +294,7 @@ struct Bundle {
 };
 
 TEST(SweepLines, EqualsTheBoxAndGivesFluxesAndPressures) {
-  IdealGas const gas = test_gas();
+  Gas const gas = test_gas();
   int const w = lanes();
   for (int order : orders)
     for (Data data : {Data::smooth, Data::strong, Data::vacuum}) {
@@ -328,7 +328,7 @@ TEST(SweepLines, EqualsTheBoxAndGivesFluxesAndPressures) {
 }
 
 TEST(SweepLines, AFaceOfLowerOrderIsThatOfTheLowerKernel) {
-  IdealGas const gas = test_gas();
+  Gas const gas = test_gas();
   int const w = lanes();
   constexpr Index n = 23;
   for (Data data : {Data::smooth, Data::strong}) {
@@ -357,7 +357,7 @@ TEST(SweepLines, AFaceOfLowerOrderIsThatOfTheLowerKernel) {
 }
 
 TEST(SweepLines, WhatLiesBeyondThreeMirrorCellsDoesNotMatterAtOrderFive) {
-  IdealGas const gas = test_gas();
+  Gas const gas = test_gas();
   int const w = lanes();
   constexpr Index n = 4;
   double const sigma = 0.8 / fastest(Data::smooth, gas, w);
