@@ -179,7 +179,7 @@ Gas make_gas(FlowConfig const& config) {
     gas.curve = {0, jwl.a, jwl.b, jwl.r1, jwl.r2, jwl.density};
   }
   gas.vacuum_density = 1e-10 * density;
-  gas.vacuum_energy = 1e-12 * pressure / gas.kappa();
+  gas.vacuum_energy = 1e-12 * (pressure + gas.curve.stiffness) / gas.kappa();
   return gas;
 }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fluid/flux/pack.hpp"
+#include "fluid/flux/face.hpp"
 
 namespace brisance::fluid {
 namespace {
@@ -15,9 +15,12 @@ std::array<V, 3> cell_speeds(V const& density, V const& mx, V const& my, V const
   Mask<V> const some = density > V(gas.vacuum_density);
   V const r = V(1.0) / select(some, density, V(1.0));
   V const u = mx * r, v = my * r, w = mz * r;
-  V const internal = energy - V(0.5) * (mx * u + my * v + mz * w);
+  V internal = energy - V(0.5) * (mx * u + my * v + mz * w);
+  if (!gas.curve.zero()) internal = internal - curve_at(density, gas.curve, V(gas.vacuum_density)).energy;
   Mask<V> const full = some && internal > V(gas.vacuum_energy);
-  V const c = sqrt(select(full, V(gas.gamma * gas.kappa()) * internal * r, zero));
+  V square = V(gas.gamma * gas.kappa()) * internal * r;
+  if (gas.curve.exponential()) square = square + curve_at(density, gas.curve, V(gas.vacuum_density)).slope;
+  V const c = sqrt(select(full, square, zero));
   return {select(full, abs(u) + c, zero), select(full, abs(v) + c, zero), select(full, abs(w) + c, zero)};
 }
 

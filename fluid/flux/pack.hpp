@@ -59,6 +59,7 @@ BRISANCE_INLINE Real fnma(Real a, Real b, Real c) { return __builtin_fma(-a, b, 
 /// a b - c with one rounding.
 BRISANCE_INLINE Real fms(Real a, Real b, Real c) { return __builtin_fma(a, b, -c); }
 BRISANCE_INLINE Real sqrt(Real a) { return std::sqrt(a); }
+BRISANCE_INLINE Real exp(Real a) { return std::exp(a); }
 BRISANCE_INLINE Real abs(Real a) { return std::fabs(a); }
 /// True where the sign bit is set.
 BRISANCE_INLINE bool negative(Real a) { return std::signbit(a); }
@@ -156,6 +157,7 @@ BRISANCE_INLINE void transpose(Pack (&row)[4]) {
 #endif
 
 BRISANCE_INLINE bool any_of(PackMask m) { return bits_of(m) != 0; }
+BRISANCE_INLINE Pack exp(Pack a) { return xsimd::exp(a); }
 BRISANCE_INLINE void store(Real* p, Pack v) { v.store_unaligned(p); }
 
 template <class V>

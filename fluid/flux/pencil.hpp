@@ -44,6 +44,12 @@ struct PencilData {
   /// pencil itself walks with a stride the hardware does not follow; ask for its cell 12 ahead.
   std::array<Real const*, 5> next{};
   std::ptrdiff_t const* next_offset = nullptr;
+  /// Marks of the transverse cure: of cell c of a lane at marks[mark_offset[lane] + c * mark_stride]; those in
+  /// `mark_mask` count. Null: no cure.
+  std::uint8_t const* marks = nullptr;
+  std::array<std::ptrdiff_t, lanes_of<Pack>> mark_offset{};
+  std::ptrdiff_t mark_stride = 0;
+  std::uint8_t mark_mask = 0;
 };
 
 /// Runs between walls: what the caller wants back, and the order of each face. Arrays as in LineBundle.
@@ -64,35 +70,36 @@ struct PencilReport {
   V flux_low[5], flux_high[5];
 };
 
-/// Order, value type and whether the pencils are runs between walls, fixed at compile time.
-template <int Order, class V, bool Runs>
+/// Order, value type, kind of gas and whether the pencils are runs between walls, fixed at compile time.
+template <int Order, class V, class Curve, bool Runs>
 class Pencil {
  public:
   static constexpr int reach = Stencil<Order>::reach, half = Stencil<Order>::half, ghosts = Stencil<Order>::ghosts;
   static constexpr int lanes = lanes_of<V>;
 
   /// Advances cells 0..n-1 by one sweep; `report` gathers.
-  void sweep(PencilData const& data, RunData const* runs, Real sigma, Gas const& gas, PencilReport<V>& report) {
-    SweepConstants<V> const k(gas, sigma);
-    faces_.restart(), thirds_.restart();
+  void sweep(PencilData const& data, RunData const* runs, Real sigma, Gas const& gas, SweepOptions const& options,
+             PencilReport<V>& report) {
+    SweepConstants<V, Curve> const k(gas, sigma, options);
+    faces_.restart(), jumps_.restart();
     for (V& x : faces_[newest - 1].low_flux)
       x = V(0.0);  // of the first face's missing neighbour: no result depends on it
-    Cell<V> left, right;
+    Cell<V, Curve> left, right;
     V before[5] = {V(0.0), V(0.0), V(0.0), V(0.0), V(0.0)};
     fetch(data, runs, -ghosts, left, k, report);
     for (Index f = -reach; f < reach; ++f) {
       fetch(data, runs, f, right, k, report);
-      push(left, right, k);
+      push(left, right, data, f, k);
       left = right;
-      faces_.advance(), thirds_.advance();
+      faces_.advance(), jumps_.advance();
     }
     for (Index f = 0; f <= data.n; ++f) {
       fetch(data, runs, f + reach, right, k, report);
-      push(left, right, k);
+      push(left, right, data, f + reach, k);
       left = right;
       V difference[5];
-      flux(difference, k, runs ? runs->face_order + std::ptrdiff_t{f} * lanes : nullptr);
-      keep_positive(difference, sigma, f, data, runs, report);
+      flux(difference, k, data.marks != nullptr, runs ? runs->face_order + std::ptrdiff_t{f} * lanes : nullptr);
+      keep_positive(difference, gas, k, f, data, runs, report);
       if constexpr (Runs) {
         give_flux(difference, runs->flux + std::ptrdiff_t{f} * 5 * lanes);
       } else if (f == 0 || f == data.n) {
@@ -101,20 +108,20 @@ class Pencil {
       }
       if (f > 0) update(difference, before, data, f - 1, k, gas, report);
       BRISANCE_UNROLL for (int n = 0; n < 5; ++n) before[n] = difference[n];
-      faces_.advance(), thirds_.advance();
+      faces_.advance(), jumps_.advance();
     }
   }
 
  private:
   static constexpr int here = 2, newest = reach + 2;  ///< places in the ring of faces
-  static constexpr int third_here = half;             ///< in the ring of corrections
-  Ring<Face<V>, reach + 3> faces_;
-  Ring<ThirdOrder<V>, reach + half + 1> thirds_;
+  static constexpr int middle = half < 2 ? 2 : half;  ///< of this face in the ring of jumps
+  Ring<Face<V, Curve>, reach + 3> faces_;
+  Ring<Jump<V>, reach + middle + 1> jumps_;
   Mask<V> vacuum_left_{}, vacuum_right_{};
   bool any_vacuum_left_ = false, any_vacuum_right_ = false;
 
-  BRISANCE_INLINE void fetch(PencilData const& data, RunData const* runs, Index c, Cell<V>& cell,
-                             SweepConstants<V> const& k, PencilReport<V>& report) {
+  BRISANCE_INLINE void fetch(PencilData const& data, RunData const* runs, Index c, Cell<V, Curve>& cell,
+                             SweepConstants<V, Curve> const& k, PencilReport<V>& report) {
     BRISANCE_UNROLL for (std::size_t q = 0; q < 5; ++q) cell.state[q] = load<V>(data.in[q] + c * data.in_stride);
     ask_ahead(data, c);
     primitives(cell, k);
@@ -122,13 +129,15 @@ class Pencil {
     vacuum_right_ = is_vacuum(cell, k);
     any_vacuum_right_ = any_of(vacuum_right_);
     if (any_vacuum_right_) [[unlikely]] {
-      Cell<V> copy = cell;
-      empty_cell(copy, vacuum_right_);
+      // copies: an address given away would keep the originals out of the registers everywhere
+      Cell<V, Curve> copy = cell;
+      SweepConstants<V, Curve> const constants = k;
+      empty_cell(copy, vacuum_right_, constants);
       cell = copy;
     }
     if (c < 0 || c >= data.n) return;
     if constexpr (Runs) {
-      store(runs->pressure + std::ptrdiff_t{c} * lanes, k.kappa * cell.energy);
+      store(runs->pressure + std::ptrdiff_t{c} * lanes, pressure_of(cell, k));
       report.signal = max(report.signal, select(inside(runs, c), cell.signal, V(0.0)));
     } else {
       report.signal = max(report.signal, cell.signal);
@@ -146,22 +155,41 @@ class Pencil {
     }
   }
 
-  /// The face between the two cells, newest of the ring.
-  BRISANCE_INLINE void push(Cell<V> const& left, Cell<V> const& right, SweepConstants<V> const& k) {
-    Face<V>&face = faces_[newest], &previous = faces_[newest - 1];
-    ThirdOrder<V>& third = thirds_[reach + half];
-    form_face<Order>(left, right, previous, face, third, k);
+  /// The face between the cells c-1 and c, newest of the ring.
+  BRISANCE_INLINE void push(Cell<V, Curve> const& left, Cell<V, Curve> const& right, PencilData const& data, Index c,
+                            SweepConstants<V, Curve> const& k) {
+    Face<V, Curve>&face = faces_[newest], &previous = faces_[newest - 1];
+    Jump<V>& window = jumps_[reach + middle];
+    form_face<Order>(left, right, previous, face, window, k);
+    if (data.marks) [[unlikely]]
+      face.cure = cure_speed(data, c, k.shear * max(left.sound, right.sound));
     if (any_vacuum_left_ || any_vacuum_right_) [[unlikely]] {
-      Cell<V> const l = left, r = right;
-      empty_face<Order>(l, r, vacuum_left_ | vacuum_right_, previous, face, third, k.sigma);
+      Cell<V, Curve> const l = left, r = right;
+      SweepConstants<V, Curve> const constants = k;
+      empty_face<Order>(l, r, vacuum_left_ | vacuum_right_, previous, face, window, constants);
     }
   }
 
+  /// `speed` in the lanes where one of the cells c-1 and c is marked by a shock across the sweep, else 0. Marks reach
+  /// one cell beyond the pencil.
+  [[gnu::noinline, gnu::cold]] static V cure_speed(PencilData const& data, Index c, V speed) {
+    auto const marked = [&](Index cell) {
+      Index const at = cell < -1 ? -1 : cell > data.n ? data.n : cell;
+      Real mark[lanes];
+      for (int lane = 0; lane < lanes; ++lane)
+        mark[lane] =
+            data.marks[data.mark_offset[static_cast<std::size_t>(lane)] + at * data.mark_stride] & data.mark_mask;
+      return load<V>(mark) > V(0.0);
+    };
+    return select(marked(c - 1) | marked(c), speed, V(0.0));
+  }
+
   /// Flux of the face in the middle of the window, minus its low-order flux.
-  BRISANCE_INLINE void flux(V* difference, SweepConstants<V> const& k, std::uint8_t const* face_order) {
-    Face<V> const& f = faces_[here];
-    V const inv_2c = V(0.5) * f.inv_sound, q = V(0.5) * fma(f.u, f.u, fma(f.v, f.v, f.w * f.w));
-    Frame<V> const frame{f.u, f.v, f.w, q, k.kappa * inv_2c * f.inv_sound, inv_2c};
+  BRISANCE_INLINE void flux(V* difference, SweepConstants<V, Curve> const& k, bool cure,
+                            std::uint8_t const* face_order) {
+    Face<V, Curve> const& f = faces_[here];
+    V const q = V(0.5) * fma(f.u, f.u, fma(f.v, f.v, f.w * f.w));
+    Frame<V> const frame = make_frame(f.u, f.v, f.w, q, f.inv_sound, k.kappa, f.bend);
     V part[5];
     if constexpr (Order == 1) {
       V const speed0 = V(-0.5) * abs(f.u);
@@ -169,58 +197,85 @@ class Pencil {
       part[4] = V(-0.5) * f.speed5 * f.strength[4];
       BRISANCE_UNROLL for (int n = 1; n < 4; ++n) part[n] = speed0 * f.strength[n];
     } else {
-      characteristic_fluxes(f, frame, part, k, face_order);
+      V steepest = f.steep;
+      BRISANCE_UNROLL for (int z = -2; z <= 2; ++z) if (z != 0) steepest = max(steepest, faces_[here + z].steep);
+      if (Mask<V> const steep = steepest > V(0.0); k.hybrid && any_of(steep)) [[unlikely]] {
+        Frame<V> const seen = frame;
+        SweepConstants<V, Curve> const constants = k;
+        V mixed[5];
+        mixed_fluxes(f, seen, mixed, constants, face_order, steep);
+        for (int n = 0; n < 5; ++n) part[n] = mixed[n];
+      } else
+        characteristic_fluxes<false>(f, frame, part, k, face_order, Mask<V>{});
+    }
+    if (cure) [[unlikely]] {
+      V const missing = V(-0.5) * max(f.cure - abs(f.u), V(0.0));
+      for (int n = 1; n < 4; ++n) part[n] = fma(missing, f.strength[n], part[n]);
     }
     V total[5];
-    assemble(part, f, q, total);
+    assemble(part, f, frame.q_entropy, total);
     BRISANCE_UNROLL for (int n = 0; n < 5; ++n) difference[n] = f.above_low[n] + total[n];
   }
 
-  BRISANCE_INLINE void characteristic_fluxes(Face<V> const& f, Frame<V> const& frame, V* part,
-                                             SweepConstants<V> const& k, std::uint8_t const* face_order) {
-    Acoustic<V> jumps[5], thirds[2 * half + 1];
-    V const *x[5], *p[2 * half + 1];
-    BRISANCE_UNROLL for (int z = 0; z < 5; ++z) {
-      x[z] = faces_[z].jump;
-      if (z != here) jumps[z] = project(x[z], frame);
+  /// Apart from the common path, which then stays short in the instruction cache.
+  [[gnu::noinline]] void mixed_fluxes(Face<V, Curve> const& f, Frame<V> const& frame, V* part,
+                                      SweepConstants<V, Curve> const& k, std::uint8_t const* face_order,
+                                      Mask<V> steep) {
+    characteristic_fluxes<true>(f, frame, part, k, face_order, steep);
+  }
+
+  /// The five fields. `Mixed`: lanes that are `steep` take the third-order terms with the coefficients of this face
+  /// from the jumps, the others as they are (theory/fluid.md 2.4, `hybrid`).
+  template <bool Mixed>
+  BRISANCE_INLINE void characteristic_fluxes(Face<V, Curve> const& f, Frame<V> const& frame, V* part,
+                                             SweepConstants<V, Curve> const& k, std::uint8_t const* face_order,
+                                             Mask<V> steep) {
+    constexpr int wide = Mixed ? middle : 2;
+    Acoustic<V> jumps[2 * middle + 1], thirds[2 * half + 1];
+    V const *x[2 * middle + 1], *p[2 * half + 1];
+    BRISANCE_UNROLL for (int z = -wide; z <= wide; ++z) {
+      x[middle + z] = jumps_[middle + z].jump;
+      if (z != 0 || Mixed) jumps[middle + z] = project(x[middle + z], frame);
     }
-    BRISANCE_UNROLL for (int z = 0; z <= 2 * half; ++z) {
-      p[z] = thirds_[z].p;
-      thirds[z] = project(p[z], frame);
+    BRISANCE_UNROLL for (int z = -half; z <= half; ++z) {
+      p[half + z] = jumps_[middle + z].third;
+      thirds[half + z] = project(p[half + z], frame);
     }
-    Face<V> const &low = faces_[here - 1], &high = faces_[here + 1];
+    Face<V, Curve> const &low = faces_[here - 1], &high = faces_[here + 1];
     V const two(2.0);
     auto run = [&](auto const& keep) __attribute__((always_inline)) {
-      {
-        auto const wave = make_wave(f.u - f.sound, f.speed1, low.room1, high.room1, k);
-        part[0] = field_flux<Order>(
-            wave, f.strength[0],
-            [&](int z) __attribute__((always_inline)) { return jumps[here + z].pressure - jumps[here + z].velocity; },
-            [&](int z) __attribute__((always_inline)) { return thirds[half + z].pressure - thirds[half + z].velocity; },
-            keep);
-      }
-      {
-        auto const wave = make_wave(f.u + f.sound, f.speed5, low.room5, high.room5, k);
-        part[4] = field_flux<Order>(
-            wave, f.strength[4],
-            [&](int z) __attribute__((always_inline)) { return jumps[here + z].pressure + jumps[here + z].velocity; },
-            [&](int z) __attribute__((always_inline)) { return thirds[half + z].pressure + thirds[half + z].velocity; },
-            keep);
-      }
+      // One field: `component(a, y)` is its strength in a jump or correction y with the acoustic part a.
+      auto field = [&](Wave<Order, V> const& wave, V strength, auto const& component) __attribute__((always_inline)) {
+        auto jump = [&](int z) __attribute__((always_inline)) { return component(jumps[middle + z], x[middle + z]); };
+        auto third = [&](int z) __attribute__((always_inline)) {
+          V const own = component(thirds[half + z], p[half + z]);
+          if constexpr (!Mixed) return own;
+          V const nu = min(k.sigma * (two * wave.half_speed), V(1.0));
+          V const factor = flip(V(1.0 / 3) * wave.half_speed * fnma(nu, nu, V(1.0)), wave.sign);
+          return select(steep, factor * (z == 0 ? strength : jump(z)), own);
+        };
+        return field_flux<Order>(wave, strength, jump, third, keep);
+      };
+      using A = Acoustic<V>;
+      part[0] = field(
+          make_wave(f.u - f.sound, f.speed1, low.room1, high.room1, k), f.strength[0],
+          [](A const& a, V const*) __attribute__((always_inline)) { return a.pressure - a.velocity; });
+      part[4] = field(
+          make_wave(f.u + f.sound, f.speed5, low.room5, high.room5, k), f.strength[4],
+          [](A const& a, V const*) __attribute__((always_inline)) { return a.pressure + a.velocity; });
       auto const wave = make_wave(f.u, abs(f.u), low.room0, high.room0, k);
-      part[1] = field_flux<Order>(
-          wave, f.strength[1],
-          [&](int z) __attribute__((always_inline)) { return fnma(two, jumps[here + z].pressure, x[here + z][0]); },
-          [&](int z) __attribute__((always_inline)) { return fnma(two, thirds[half + z].pressure, p[half + z][0]); },
-          keep);
-      part[2] = field_flux<Order>(
-          wave, f.strength[2],
-          [&](int z) __attribute__((always_inline)) { return fnma(frame.v, x[here + z][0], x[here + z][2]); },
-          [&](int z) __attribute__((always_inline)) { return fnma(frame.v, p[half + z][0], p[half + z][2]); }, keep);
-      part[3] = field_flux<Order>(
-          wave, f.strength[3],
-          [&](int z) __attribute__((always_inline)) { return fnma(frame.w, x[here + z][0], x[here + z][3]); },
-          [&](int z) __attribute__((always_inline)) { return fnma(frame.w, p[half + z][0], p[half + z][3]); }, keep);
+      part[1] = field(
+          wave, f.strength[1], [&](A const& a, V const* y) __attribute__((always_inline)) {
+            return fnma(two, a.pressure, y[0]);
+          });
+      part[2] = field(
+          wave, f.strength[2], [&](A const&, V const* y) __attribute__((always_inline)) {
+            return fnma(frame.v, y[0], y[2]);
+          });
+      part[3] = field(
+          wave, f.strength[3], [&](A const&, V const* y) __attribute__((always_inline)) {
+            return fnma(frame.w, y[0], y[3]);
+          });
     };
     if constexpr (Runs && Order > 5) {
       V const order = spread(face_order);
@@ -232,7 +287,7 @@ class Pencil {
   }
 
   static BRISANCE_INLINE Wave<Order, V> make_wave(V lambda, V speed, V room_low, V room_high,
-                                                  SweepConstants<V> const& k) {
+                                                  SweepConstants<V, Curve> const& k) {
     Wave<Order, V> wave;
     V const nu = min(k.sigma * speed, V(1.0));
     wave.leftward = negative(lambda);
@@ -245,17 +300,17 @@ class Pencil {
   }
 
   /// Both cells of the face take twice the difference alone: if that leaves them admissible, so does the whole step.
-  BRISANCE_INLINE void keep_positive(V* difference, Real sigma, Index f, PencilData const& data, RunData const* runs,
-                                     PencilReport<V>& report) {
-    Face<V> const &face = faces_[here], &next = faces_[here + 1];
-    V const twice(2 * sigma);
-    V const margin = min(positivity_margin(face.low_state, face.energy_floor, difference, -twice),
-                         positivity_margin(next.low_state, next.energy_floor, difference, twice));
+  BRISANCE_INLINE void keep_positive(V* difference, Gas const& gas, SweepConstants<V, Curve> const& k, Index f,
+                                     PencilData const& data, RunData const* runs, PencilReport<V>& report) {
+    Face<V, Curve> const &face = faces_[here], &next = faces_[here + 1];
+    V const twice = V(2.0) * k.sigma;
+    V const margin = min(positivity_margin(face.low_state, face.energy_floor, difference, -twice, k),
+                         positivity_margin(next.low_state, next.energy_floor, difference, twice, k));
     Mask<V> const failed = !(margin >= V(0.0));
     if (any_of(failed)) [[unlikely]] {
       V copy[5];
       for (int n = 0; n < 5; ++n) copy[n] = difference[n];
-      std::uint32_t limited = limit_face(copy, face.low_state, next.low_state, 2 * sigma, bits_of(failed));
+      std::uint32_t limited = limit_face(copy, face.low_state, next.low_state, gas, k.sigma, bits_of(failed));
       limited &= f == data.n ? data.counted_high : f == data.n - 1 ? data.counted_last : data.valid;
       if constexpr (Runs) limited &= existing_faces(runs, f);
       (f < data.n ? report.fallback : report.fallback_high) += __builtin_popcount(limited);
@@ -264,15 +319,15 @@ class Pencil {
   }
 
   BRISANCE_INLINE void update(V const* difference, V const* before, PencilData const& data, Index c,
-                              SweepConstants<V> const& k, Gas const& gas, PencilReport<V>& report) {
+                              SweepConstants<V, Curve> const& k, Gas const& gas, PencilReport<V>& report) {
     V x[5];
-    Face<V> const& face = faces_[here];
+    Face<V, Curve> const& face = faces_[here];
     BRISANCE_UNROLL for (std::size_t q = 0; q < 5; ++q) {
       x[q] = fnma(k.sigma, difference[q] - before[q], face.low_state[q]);
       store(data.out[q] + c * data.out_stride, x[q]);
     }
     if constexpr (!Runs) {
-      if (auto const mask = suspect(x); any_of(mask)) [[unlikely]]
+      if (auto const mask = suspect(x, k); any_of(mask)) [[unlikely]]
         judge_cell(data, c, bits_of(mask) & data.valid, gas, report);
     }
   }

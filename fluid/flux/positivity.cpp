@@ -4,16 +4,15 @@
 
 namespace brisance::fluid {
 
-Real limited_share(Real const (&left)[5], Real const (&right)[5], Real const (&difference)[5], Real twice_sigma) {
+Real limited_share(State const& left, State const& right, State const& difference, Real twice_sigma, Gas const& gas) {
   Real share = 1;
   for (int side = 0; side < 2; ++side) {
-    Real const(&low)[5] = side == 0 ? left : right;
+    State const& low = side == 0 ? left : right;
     Real const step = side == 0 ? -twice_sigma : twice_sigma;
     auto energy = [&](Real t) {
-      Real z[5];
-      for (int k = 0; k < 5; ++k) z[k] = low[k] + step * t * difference[k];
-      if (!(z[0] > 0)) return -std::numeric_limits<Real>::infinity();
-      return z[4] - 0.5 * (z[1] * z[1] + z[2] * z[2] + z[3] * z[3]) / z[0];
+      State z;
+      for (std::size_t n = 0; n < 5; ++n) z[n] = low[n] + step * t * difference[n];
+      return z[0] > 0 ? gas.internal_energy(z) : -std::numeric_limits<Real>::infinity();
     };
     Real const whole = energy(0);
     if (!(low[0] > 0) || !(whole > 0)) return 0;  // nothing to spare

@@ -2,54 +2,60 @@
 
 #include <cstdlib>
 
+#include "fluid/flux/face.hpp"
 #include "fluid/flux/pack.hpp"
 
 namespace brisance::fluid {
 
 namespace detail {
-// Instantiated in sweep_order<N>.cpp, one order per file so that they compile side by side.
-template <int Order>
-SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, Gas const& gas);
-template <int Order>
-SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas);
+// Instantiated in sweep_order<N>.cpp and sweep_curve_order<N>.cpp, so that they compile side by side.
+template <int Order, class Curve>
+SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, Gas const& gas, SweepOptions const& options);
+template <int Order, class Curve>
+SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas,
+                           SweepOptions const& options);
 }  // namespace detail
 
-SweepReport sweep_box(int order, CellBox const& box, int direction, Real sigma, Gas const& gas) {
+namespace {
+
+/// Calls run(order, kind of curve) with both known at compile time.
+template <class Run>
+SweepReport with_order_and_curve(int order, Gas const& gas, Run run) {
+  auto const with_curve = [&]<int Order>(std::integral_constant<int, Order> o) {
+    return gas.curve.zero() ? run(o, IdealCurve{}) : run(o, AnyCurve{});
+  };
   switch (order) {
     case 1:
-      return detail::sweep_box_of<1>(box, direction, sigma, gas);
+      return with_curve(std::integral_constant<int, 1>{});
     case 3:
-      return detail::sweep_box_of<3>(box, direction, sigma, gas);
+      return with_curve(std::integral_constant<int, 3>{});
     case 5:
-      return detail::sweep_box_of<5>(box, direction, sigma, gas);
+      return with_curve(std::integral_constant<int, 5>{});
     case 7:
-      return detail::sweep_box_of<7>(box, direction, sigma, gas);
+      return with_curve(std::integral_constant<int, 7>{});
     case 9:
-      return detail::sweep_box_of<9>(box, direction, sigma, gas);
+      return with_curve(std::integral_constant<int, 9>{});
     case 11:
-      return detail::sweep_box_of<11>(box, direction, sigma, gas);
+      return with_curve(std::integral_constant<int, 11>{});
     default:
       std::abort();  // the scene admits these six only
   }
 }
 
-SweepReport sweep_lines(int order, LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas) {
-  switch (order) {
-    case 1:
-      return detail::sweep_lines_of<1>(lines, valid_lanes, sigma, gas);
-    case 3:
-      return detail::sweep_lines_of<3>(lines, valid_lanes, sigma, gas);
-    case 5:
-      return detail::sweep_lines_of<5>(lines, valid_lanes, sigma, gas);
-    case 7:
-      return detail::sweep_lines_of<7>(lines, valid_lanes, sigma, gas);
-    case 9:
-      return detail::sweep_lines_of<9>(lines, valid_lanes, sigma, gas);
-    case 11:
-      return detail::sweep_lines_of<11>(lines, valid_lanes, sigma, gas);
-    default:
-      std::abort();  // the scene admits these six only
-  }
+}  // namespace
+
+SweepReport sweep_box(int order, CellBox const& box, int direction, Real sigma, Gas const& gas,
+                      SweepOptions const& options) {
+  return with_order_and_curve(order, gas, [&](auto o, auto curve) {
+    return detail::sweep_box_of<decltype(o)::value, decltype(curve)>(box, direction, sigma, gas, options);
+  });
+}
+
+SweepReport sweep_lines(int order, LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas,
+                        SweepOptions const& options) {
+  return with_order_and_curve(order, gas, [&](auto o, auto curve) {
+    return detail::sweep_lines_of<decltype(o)::value, decltype(curve)>(lines, valid_lanes, sigma, gas, options);
+  });
 }
 
 int lanes() { return lanes_of<Pack>; }

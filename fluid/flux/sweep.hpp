@@ -9,6 +9,13 @@
 
 namespace brisance::fluid {
 
+/// Choices of the scheme beside its order.
+struct SweepOptions {
+  bool hybrid = false;  ///< frozen coefficients next to pressure jumps (theory/fluid.md 2.4)
+  Real shear_dissipation =
+      0;  ///< eta of the cure beside transverse shocks (theory/fluid.md 2.7); acts where marks are set
+};
+
 /// Cells needed on either side of a pencil (theory/fluid.md 2.2).
 constexpr Index ghost_depth(int order) { return order <= 5 ? 3 : (order + 1) / 2; }
 
@@ -43,12 +50,17 @@ struct CellBox {
   std::array<Index, 3> size;
   std::array<std::ptrdiff_t, 3> stride;
   int dimension;
+  /// Marks of the shock sensor, one byte a cell, bit d: a shock runs along d; at local cell (0,0,0), with one ghost on
+  /// every side. Null: no cell is marked.
+  std::uint8_t const* marks = nullptr;
+  std::array<std::ptrdiff_t, 3> mark_stride{};
 };
 
 /// In place: cell means at t -> after the sweep along `direction`. Ghosts of that direction must be filled.
 /// Shape: any size; what is narrower than a vector is padded. Units: sigma = dt/h in s/m.
 /// Errors: raises health bits (theory/fluid.md 4.4, 4.6), never throws. Source: theory/fluid.md 2-4.
-SweepReport sweep_box(int order, CellBox const& box, int direction, Real sigma, Gas const& gas);
+SweepReport sweep_box(int order, CellBox const& box, int direction, Real sigma, Gas const& gas,
+                      SweepOptions const& options = {});
 
 /// Lanes of the vector this build uses.
 int lanes();
@@ -65,10 +77,13 @@ struct LineBundle {
   /// [face 0..n][lane]: order of each face, at most `order` (below 5 only if it is `order`); 0: the face is outside the
   /// run of its lane, its flux is nonsense, and it and its cells enter neither counts nor extrema.
   std::uint8_t const* face_order;
+  /// [cell -1..n][lane]: 1 where a shock runs across the sweep, as CellBox::marks; at cell 0. Null: nowhere.
+  std::uint8_t const* marks = nullptr;
 };
 /// As sweep_box for runs between walls (theory/coupling.md 1.9). `flux_low/high`, `where` and health are left empty:
 /// the caller judges. Faces see neighbours only through `u`: mirror cells stand there. Counts fallback faces per lane
 /// mask.
-SweepReport sweep_lines(int order, LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas);
+SweepReport sweep_lines(int order, LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas,
+                        SweepOptions const& options = {});
 
 }  // namespace brisance::fluid

@@ -7,10 +7,11 @@
 
 namespace brisance::fluid::detail {
 
-template <int Order>
-SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, Gas const& gas);
-template <int Order>
-SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas);
+template <int Order, class Curve>
+SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, Gas const& gas, SweepOptions const& options);
+template <int Order, class Curve>
+SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas,
+                           SweepOptions const& options);
 
 inline constexpr int width = lanes_of<Pack>;
 
@@ -67,13 +68,14 @@ inline void scatter(std::array<Real*, 5> const& u, Lanes const& lanes, std::ptrd
 }
 
 /// The sweep of one box: bundles of neighbours in x as they stand, all other pencils through scratch memory.
-template <int Order>
+template <int Order, class Curve>
 class BoxSweep {
  public:
-  BoxSweep(CellBox const& box, int direction, Real sigma, Gas const& gas)
+  BoxSweep(CellBox const& box, int direction, Real sigma, Gas const& gas, SweepOptions const& options)
       : box_(box),
         sigma_(sigma),
         gas_(gas),
+        options_(options),
         along_(static_cast<std::size_t>(direction)),
         fast_(direction == 0 ? 1 : 0),
         slow_(direction == 2 ? 1 : 2),
@@ -99,12 +101,17 @@ class BoxSweep {
 
   std::ptrdiff_t offset(Index fast, Index slow) const { return fast * box_.stride[fast_] + slow * box_.stride[slow_]; }
 
+  std::ptrdiff_t mark_offset(Index fast, Index slow) const {
+    return fast * box_.mark_stride[fast_] + slow * box_.mark_stride[slow_];
+  }
+
   void sweep_in_place(Index fast, Index slow) {
     PencilData data{n_, {}, {}, box_.stride[along_], box_.stride[along_], all, all, all};
     for (std::size_t q = 0; q < 5; ++q) data.in[q] = data.out[q] = u_[q] + offset(fast, slow);
     Lanes lanes;
     for (Index lane = 0; lane < width; ++lane) lanes.pencil[std::size_t(lane)] = fast + lane;
     lanes.counted_low = lanes.counted_high = all;
+    for (std::size_t lane = 0; lane < width; ++lane) data.mark_offset[lane] = mark_offset(lanes.pencil[lane], slow);
     take(data, lanes, [&](std::size_t lane) { return std::array{lanes.pencil[lane], slow}; });
   }
 
@@ -129,6 +136,9 @@ class BoxSweep {
         data.next[q] = u_[q];
       }
       data.next_offset = next.offset.data();
+      for (std::size_t lane = 0; lane < width; ++lane)
+        data.mark_offset[lane] = mark_offset(start + lanes.pencil[lane] % span, lanes.pencil[lane] / span) +
+                                 lanes.first[lane] * box_.mark_stride[along_];
       take(data, lanes, [&](std::size_t lane) {
         return std::array{start + lanes.pencil[lane] % span, lanes.pencil[lane] / span};
       });
@@ -163,10 +173,14 @@ class BoxSweep {
   /// Sweeps a bundle and adds what it saw to the report of the box; `place(lane)` gives the pencil's (fast, slow)
   /// indices.
   template <class Place>
-  void take(PencilData const& data, Lanes const& lanes, Place place) {
+  void take(PencilData& data, Lanes const& lanes, Place place) {
+    if (options_.shear_dissipation > 0 && box_.marks) {
+      data.marks = box_.marks, data.mark_stride = box_.mark_stride[along_];
+      data.mark_mask = static_cast<std::uint8_t>(7u & ~(1u << along_));
+    }
     PencilReport<Pack> seen;
     seen.signal = signal_;
-    pencil_.sweep(data, nullptr, sigma_, gas_, seen);
+    pencil_.sweep(data, nullptr, sigma_, gas_, options_, seen);
     signal_ = seen.signal;
     report_.fallback_faces += seen.fallback;
     report_.fallback_faces_high_end += seen.fallback_high;
@@ -188,31 +202,37 @@ class BoxSweep {
   CellBox const& box_;
   Real const sigma_;
   Gas const& gas_;
+  SweepOptions const& options_;
   std::size_t const along_, fast_, slow_;
   Index const n_;
   std::array<std::size_t, 5> const component_;
   std::array<Real*, 5> u_{};
-  Pencil<Order, Pack, false> pencil_;
+  Pencil<Order, Pack, Curve, false> pencil_;
   Pack signal_ = Pack(0.0);
   SweepReport report_;
 };
 
-template <int Order>
-SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, Gas const& gas) {
-  return BoxSweep<Order>(box, direction, sigma, gas).run();
+template <int Order, class Curve>
+SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, Gas const& gas, SweepOptions const& options) {
+  return BoxSweep<Order, Curve>(box, direction, sigma, gas, options).run();
 }
 
-template <int Order>
-SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas) {
+template <int Order, class Curve>
+SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas,
+                           SweepOptions const& options) {
   PencilData data{lines.n, {}, {}, 5 * width, 5 * width, valid_lanes, valid_lanes, valid_lanes};
   for (std::size_t q = 0; q < 5; ++q) {
     data.in[q] = lines.u + q * width;
     data.out[q] = lines.result + q * width;
   }
+  if (options.shear_dissipation > 0 && lines.marks) {
+    data.marks = lines.marks, data.mark_stride = width, data.mark_mask = 1;
+    for (std::size_t lane = 0; lane < width; ++lane) data.mark_offset[lane] = static_cast<std::ptrdiff_t>(lane);
+  }
   RunData const runs{lines.flux, lines.pressure, lines.face_order};
-  Pencil<Order, Pack, true> pencil;
+  Pencil<Order, Pack, Curve, true> pencil;
   PencilReport<Pack> seen;
-  pencil.sweep(data, &runs, sigma, gas, seen);
+  pencil.sweep(data, &runs, sigma, gas, options, seen);
   SweepReport report;
   for (std::size_t lane = 0; lane < width; ++lane)
     if (valid_lanes >> lane & 1) report.signal_max = max(report.signal_max, seen.signal.get(lane));
@@ -221,10 +241,11 @@ SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, R
   return report;
 }
 
-#define BRISANCE_INSTANTIATE_SWEEP(Order)                                                         \
-  namespace brisance::fluid::detail {                                                             \
-  template SweepReport sweep_box_of<Order>(CellBox const&, int, Real, Gas const&);                \
-  template SweepReport sweep_lines_of<Order>(LineBundle const&, std::uint32_t, Real, Gas const&); \
+#define BRISANCE_INSTANTIATE_SWEEP(Order, Curve)                                                               \
+  namespace brisance::fluid::detail {                                                                          \
+  template SweepReport sweep_box_of<Order, Curve>(CellBox const&, int, Real, Gas const&, SweepOptions const&); \
+  template SweepReport sweep_lines_of<Order, Curve>(LineBundle const&, std::uint32_t, Real, Gas const&,        \
+                                                    SweepOptions const&);                                      \
   }
 
 }  // namespace brisance::fluid::detail

@@ -53,16 +53,16 @@ struct Gas {
 
   /// phi, J/m3. The same operations in the same order as the sweep, so that both agree on what is vacuum.
   Real internal_energy(State const& u) const {
-    if (!(u[0] > 0)) return u[4];
+    if (!(u[0] > 0)) return u[4] - curve.stiffness;
     Real const inverse = 1 / u[0];
     Real const twice_kinetic = std::fma(u[1], u[1] * inverse, std::fma(u[2], u[2] * inverse, u[3] * (u[3] * inverse)));
     Real const energy = std::fma(-0.5, twice_kinetic, u[4]);
     return curve.zero() ? energy : energy - reference_energy(u[0]);
   }
   bool vacuum(State const& u) const { return !(u[0] > vacuum_density) || !(internal_energy(u) > vacuum_energy); }
-  /// Pa; 0 in vacuum.
+  /// Pa; 0 in vacuum, which a stiffened gas leaves at -p_inf.
   Real pressure(State const& u) const {
-    if (vacuum(u)) return 0;
+    if (vacuum(u)) return -curve.stiffness;
     Real const thermal = kappa() * internal_energy(u);
     return curve.zero() ? thermal : reference_pressure(u[0]) + thermal;
   }
@@ -79,9 +79,9 @@ struct Gas {
     if (curve.zero()) return pressure_ / kappa();
     return (pressure_ - reference_pressure(density)) / kappa() + reference_energy(density);
   }
-  /// Density 0 is true vacuum: no content at all.
+  /// Density 0 is true vacuum: no content but the energy at which the reference curve ends (p_inf of stiffened gas).
   State conserved(Real density, Vec3 const& v, Real pressure_) const {
-    if (!curve.zero() && !(density > 0)) return {};
+    if (!curve.zero() && !(density > 0)) return {0, 0, 0, 0, curve.stiffness};
     return {density, density * v.x, density * v.y, density * v.z,
             energy_at_rest(density, pressure_) + 0.5 * density * norm2(v)};
   }

@@ -17,22 +17,26 @@ double curvature(double a, double b) {
 struct PlainCell {
   bool vacuum = false;
   double u = 0, v = 0, w = 0, p = 0, c = 0, enthalpy = 0;
+  double scale = 0;         // rho c^2 / gamma
+  double f = 0, slope = 0;  // p_ref - Gamma rho e_ref and its derivative
   State flux{};
 };
 
 struct PlainFace {
   bool vacuum = false;
   double u = 0, v = 0, w = 0, enthalpy = 0, c = 1;
+  double bend = 0;  // chi / Gamma
+  bool steep = false;
   State lambda{}, speed{}, jump{}, strength{}, third{}, low{}, mean{};
 
   State into(State const& x, double kappa) const {
     double const q = 0.5 * (u * u + v * v + w * w), m = x[1] - u * x[0];
-    double const pi = kappa * (q * x[0] - u * x[1] - v * x[2] - w * x[3] + x[4]);
+    double const pi = kappa * ((q + bend) * x[0] - u * x[1] - v * x[2] - w * x[3] + x[4]);
     return {(pi - c * m) / (2 * c * c), x[0] - pi / (c * c), x[2] - v * x[0], x[3] - w * x[0],
             (pi + c * m) / (2 * c * c)};
   }
   State out_of(State const& h) const {
-    double const q = 0.5 * (u * u + v * v + w * w);
+    double const q = 0.5 * (u * u + v * v + w * w) - bend;
     return {h[0] + h[1] + h[4], h[0] * (u - c) + h[1] * u + h[4] * (u + c), (h[0] + h[1] + h[4]) * v + h[2],
             (h[0] + h[1] + h[4]) * w + h[3],
             h[0] * (enthalpy - u * c) + h[1] * q + h[2] * v + h[3] * w + h[4] * (enthalpy + u * c)};
@@ -42,9 +46,17 @@ struct PlainFace {
 PlainCell evaluate(State const& x, Gas const& gas) {
   PlainCell c;
   c.vacuum = gas.vacuum(x);
-  if (c.vacuum) return c;
+  if (c.vacuum) {
+    c.p = c.flux[1] = gas.pressure(x);
+    return c;
+  }
   c.u = x[1] / x[0], c.v = x[2] / x[0], c.w = x[3] / x[0];
-  c.p = gas.pressure(x), c.c = std::sqrt(gas.gamma * c.p / x[0]), c.enthalpy = (x[4] + c.p) / x[0];
+  c.p = gas.pressure(x), c.c = gas.sound_speed(x), c.enthalpy = (x[4] + c.p) / x[0];
+  c.scale = x[0] * c.c * c.c / gas.gamma;
+  auto const f_at = [&](double rho) { return gas.reference_pressure(rho) - gas.kappa() * gas.reference_energy(rho); };
+  c.f = f_at(x[0]);
+  c.slope =
+      gas.reference_slope(x[0]) - gas.kappa() * (gas.reference_energy(x[0]) + gas.reference_pressure(x[0])) / x[0];
   c.flux = {x[1], x[1] * c.u + c.p, x[2] * c.u, x[3] * c.u, (x[4] + c.p) * c.u};
   return c;
 }
@@ -59,7 +71,10 @@ PlainFace face_between(State const& ul, State const& ur, PlainCell const& l, Pla
     double const wl = std::sqrt(ul[0]) / (std::sqrt(ul[0]) + std::sqrt(ur[0])), wr = 1 - wl;
     f.u = wl * l.u + wr * r.u, f.v = wl * l.v + wr * r.v, f.w = wl * l.w + wr * r.w;
     f.enthalpy = wl * l.enthalpy + wr * r.enthalpy;
-    f.c = std::sqrt(gas.kappa() * (f.enthalpy - 0.5 * (f.u * f.u + f.v * f.v + f.w * f.w)));
+    double const drho = ur[0] - ul[0];
+    f.bend = (std::abs(drho) > 1e-6 * (ul[0] + ur[0]) ? (r.f - l.f) / drho : 0.5 * (l.slope + r.slope)) / gas.kappa();
+    double const c2 = gas.kappa() * (f.bend + f.enthalpy - 0.5 * (f.u * f.u + f.v * f.v + f.w * f.w));
+    f.c = c2 > 0 ? std::sqrt(c2) : std::min(l.c, r.c);
     f.lambda = {f.u - f.c, f.u, f.u, f.u, f.u + f.c};
     for (std::size_t k = 0; k < 5; ++k) f.speed[k] = abs(f.lambda[k]), f.jump[k] = ur[k] - ul[k];
     f.speed[0] = std::max({f.speed[0], f.lambda[0] - (l.u - l.c), (r.u - r.c) - f.lambda[0]});
@@ -72,7 +87,8 @@ PlainFace face_between(State const& ul, State const& ur, PlainCell const& l, Pla
     }
     f.third = f.out_of(h);
   }
-  double const hlle_courant = gas.gamma <= 1.67 ? 0.905 : gas.kappa() <= 2 ? 0.8 : 0.5;
+  f.steep = std::abs(r.p - l.p) > 0.2 * std::min(l.scale, r.scale);
+  double const hlle_courant = gas.gamma <= 1.67 && !gas.curve.exponential() ? 0.905 : gas.kappa() <= 2 ? 0.8 : 0.5;
   bool const llf = f.vacuum || sigma * a > hlle_courant;
   double const sl = std::min({0.0, l.u - l.c, f.u - f.c}), sr = std::max({0.0, r.u + r.c, f.u + f.c});
   for (std::size_t k = 0; k < 5; ++k)
@@ -85,17 +101,22 @@ double const binomial[6][9] = {
     {}, {1}, {1, -2, 1}, {1, -4, 6, -4, 1}, {1, -6, 15, -20, 15, -6, 1}, {1, -8, 28, -56, 70, -56, 28, -8, 1}};
 
 /// G - |a| jump / 2 of field k at face f. Source: theory/fluid.md 2.4 step 3, 2.5.
-double field(std::vector<PlainFace> const& faces, std::size_t f, std::size_t k, int order, double sigma, double kappa) {
+double field(std::vector<PlainFace> const& faces, std::size_t f, std::size_t k, int order, double sigma, double kappa,
+             bool hybrid) {
   PlainFace const& face = faces[f];
   double const speed = face.speed[k], nu = std::min(1.0, sigma * speed), own = face.strength[k];
   int const s = face.lambda[k] >= 0 ? 1 : -1;
   auto at = [&](int z) { return static_cast<std::size_t>(static_cast<int>(f) + z); };
   if (order == 1 || face.vacuum) return -0.5 * speed * own;
   auto jump = [&](int z) { return face.into(faces[at(z)].jump, kappa)[k]; };
+  bool frozen = false;
+  for (int z = -2; z <= 2; ++z) frozen = frozen || (hybrid && faces[at(z)].steep);
+  auto third = [&](int z) {
+    return frozen ? speed * (1 - nu * nu) / 3 * jump(z) : s * face.into(faces[at(z)].third, kappa)[k];
+  };
   auto even = [&](int q, int centre) {
     double sum = 0;
-    for (int z = -(q - 1); z <= q - 1; ++z)
-      sum += binomial[q][z + q - 1] * s * face.into(faces[at(centre + z)].third, kappa)[k];
+    for (int z = -(q - 1); z <= q - 1; ++z) sum += binomial[q][z + q - 1] * third(centre + z);
     return sum;
   };
   double total = speed * (1 - nu) * own - (even(1, 0) - even(1, -s)), ratio = 1;
@@ -119,10 +140,9 @@ double field(std::vector<PlainFace> const& faces, std::size_t f, std::size_t k, 
   return std::min(std::max(0.5 * total, low), high) - 0.5 * speed * own;
 }
 
-double energy(State const& x) { return x[4] - 0.5 * (x[1] * x[1] + x[2] * x[2] + x[3] * x[3]) / x[0]; }
-
 /// theta of theory/fluid.md 4.2 with the cheap test as its only trigger.
-double blending(State const (&low)[2], State const& difference, double sigma) {
+double blending(State const (&low)[2], State const& difference, double sigma, Gas const& gas) {
+  auto const energy = [&](State const& x) { return gas.internal_energy(x); };
   double const eps = 1e-2;
   auto state = [&](int side, double theta) {
     State z;
@@ -149,7 +169,8 @@ double blending(State const (&low)[2], State const& difference, double sigma) {
 
 }  // namespace
 
-PlainSweep plain_sweep(PlainPencil const& pencil, int order, double sigma, Gas const& gas) {
+PlainSweep plain_sweep(PlainPencil const& pencil, int order, double sigma, Gas const& gas,
+                       fluid::SweepOptions const& options) {
   auto const& u = pencil.cells;
   std::vector<PlainCell> cell;
   for (State const& x : u) cell.push_back(evaluate(x, gas));
@@ -166,10 +187,15 @@ PlainSweep plain_sweep(PlainPencil const& pencil, int order, double sigma, Gas c
     std::size_t const i = first + f;
     int const own_order = pencil.face_order.empty() ? order : pencil.face_order[f];
     State d;
-    for (std::size_t k = 0; k < 5; ++k) d[k] = field(face, i, k, own_order, sigma, gas.kappa());
+    for (std::size_t k = 0; k < 5; ++k) d[k] = field(face, i, k, own_order, sigma, gas.kappa(), options.hybrid);
+    if (!pencil.marked.empty() && (pencil.marked[i - 1] || pencil.marked[i])) {
+      double const least = options.shear_dissipation * std::max(cell[i - 1].c, cell[i].c);
+      for (std::size_t k = 1; k < 4; ++k)
+        d[k] -= 0.5 * std::max(0.0, least - std::abs(face[i].u)) * face[i].strength[k];
+    }
     d = face[i].out_of(d);
     for (std::size_t k = 0; k < 5; ++k) d[k] += face[i].mean[k] - face[i].low[k];
-    double const theta = face[i].vacuum ? 0 : blending({low_state(i - 1), low_state(i)}, d, sigma);
+    double const theta = face[i].vacuum ? 0 : blending({low_state(i - 1), low_state(i)}, d, sigma, gas);
     if (theta < 1 && !face[i].vacuum) ++result.limited;
     State flux = face[i].low;
     for (std::size_t k = 0; k < 5; ++k) flux[k] += theta * d[k];

@@ -3,7 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "fluid/gas/gas.hpp"
+#include "fluid/flux/sweep.hpp"
 
 namespace brisance::testing {
 
@@ -15,6 +15,7 @@ struct PlainPencil {
   std::vector<State> cells;
   Index first = 0, n = 0;
   std::vector<int> face_order;  ///< of faces 0..n, empty: `order` everywhere
+  std::vector<bool> marked;     ///< cells beside a transverse shock, as `cells`; empty: none
 };
 struct PlainSweep {
   std::vector<State> cells;      ///< 0..n-1 after the sweep
@@ -22,6 +23,7 @@ struct PlainSweep {
   std::vector<double> pressure;  ///< of cells 0..n-1 before the sweep
   int limited = 0;               ///< faces 0..n with theta < 1
 };
-PlainSweep plain_sweep(PlainPencil const& pencil, int order, double sigma, Gas const& gas);
+PlainSweep plain_sweep(PlainPencil const& pencil, int order, double sigma, Gas const& gas,
+                       fluid::SweepOptions const& options = {});
 
 }  // namespace brisance::testing

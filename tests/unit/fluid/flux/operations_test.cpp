@@ -66,8 +66,8 @@ std::vector<State> sweep_as(Index n, Real sigma, Gas const& gas, PencilReport<V>
   for (Index c = -ghosts; c < n + ghosts; ++c) cells.push_back(wave(c, gas));
   PencilData data{n, {}, {}, 5, 5, 1, 1, 1};
   for (std::size_t q = 0; q < 5; ++q) data.in[q] = data.out[q] = cells[ghosts].data() + q;
-  Pencil<Order, V, false> pencil;
-  pencil.sweep(data, nullptr, sigma, gas, report);
+  Pencil<Order, V, IdealCurve, false> pencil;
+  pencil.sweep(data, nullptr, sigma, gas, {}, report);
   return {cells.begin() + ghosts, cells.end() - ghosts};
 }
 
