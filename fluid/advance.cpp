@@ -18,7 +18,8 @@ struct PairReport {
 PairReport sweep_pair(Flow& flow, std::int64_t step, Real dt) {
   Grid const& grid = flow.grid();
   PairReport pair;
-  for (int s = 0; s < steps_per_pair(grid.dimension); ++s)
+  for (int s = 0; s < steps_per_pair(grid.dimension); ++s) {
+    flow.begin_step();
     for (int const d : directions(grid.dimension, step + s)) {
       SweepReport const report = flow.sweep(d, dt);
       pair.health |= report.health;
@@ -26,6 +27,7 @@ PairReport sweep_pair(Flow& flow, std::int64_t step, Real dt) {
       pair.fallback_faces += report.fallback_faces;
       pair.courant = max(pair.courant, dt / grid.spacing[d] * report.signal_max);
     }
+  }
   return pair;
 }
 

@@ -23,7 +23,10 @@ Flow::Flow(FlowConfig const& config, Grid grid, std::vector<int> owner, parallel
       comm_(comm),
       blocks_(owned_blocks(grid_, owner_, comm.rank(), ghost_depth(order_))),
       boundaries_(config, gas_),
-      ghosts_(grid_, owner_, blocks_, boundaries_, comm) {
+      ghosts_(grid_, owner_, blocks_, boundaries_, comm),
+      options_(config.options()) {
+  if (grid_.dimension > 1 && options_.shear_dissipation > 0)
+    sensor_ = std::make_unique<ShockSensor>(grid_, owner_, blocks_, comm);
   GasState const& ambient = config.ambient;
   for (Block& block : blocks_) block.fill(gas_.conserved(ambient.density, ambient.velocity, ambient.pressure));
 }
@@ -32,6 +35,13 @@ Block* Flow::find(Index block_id) {
   auto const at = std::lower_bound(blocks_.begin(), blocks_.end(), block_id,
                                    [](Block const& block, Index id) { return block.id() < id; });
   return at != blocks_.end() && at->id() == block_id ? &*at : nullptr;
+}
+
+void Flow::begin_step() {
+  if (!sensor_) return;
+  sensor_->update(
+      blocks_, gas_, [this](Index block) { return sweeper_ && sweeper_->handles(block); },
+      [this](Block const& block, Index i, Index j, Index k) { return sweeper_->is_fluid(block, i, j, k); });
 }
 
 void Flow::save() {
@@ -49,7 +59,7 @@ void Flow::restore() {
 }
 
 std::size_t Flow::bytes() const {
-  std::size_t n = ghosts_.bytes();
+  std::size_t n = ghosts_.bytes() + (sensor_ ? sensor_->bytes() : 0);
   for (Block const& block : blocks_) n += block.bytes();
   for (std::vector<Real> const& copy : saved_) n += copy.capacity() * sizeof(Real);
   return n;

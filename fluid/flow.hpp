@@ -11,6 +11,7 @@
 #include "fluid/flux/sweep.hpp"
 #include "fluid/ghosts.hpp"
 #include "fluid/grid/block.hpp"
+#include "fluid/shock_sensor.hpp"
 #include "parallel/comm.hpp"
 
 namespace brisance::fluid {
@@ -25,6 +26,8 @@ struct BlockSweeper {
   /// Advances one block whose ghosts along `direction` are complete. `where` is a local cell, as in sweep_box. What
   /// crosses sides of the domain is its own affair (Flow::ledger).
   virtual SweepReport sweep(Block& block, int direction, Real dt) = 0;
+  /// Does this cell of a block that it handles hold a state of the fluid at the start of the step?
+  virtual bool is_fluid(Block const& block, Index i, Index j, Index k) const = 0;
 };
 
 class Flow {
@@ -54,6 +57,15 @@ class Flow {
   /// Null: all blocks are swept by the plain kernel. Not owned.
   void set_sweeper(BlockSweeper* sweeper) { sweeper_ = sweeper; }
 
+  /// Collective. What the sweeps of a step need of the state at its start: the marks of the shock sensor. Nothing to do
+  /// in 1D or without the cure.
+  void begin_step();
+  /// Marks of this step in an owned block; null: none.
+  CellLayer<std::uint8_t> const* marks(Block const& block) const {
+    return sensor_ ? sensor_->marks(static_cast<std::size_t>(&block - blocks_.data())) : nullptr;
+  }
+  SweepOptions const& options() const { return options_; }
+
   /// Collective. Cell means at t -> after one sweep along `direction`, in place, ghosts included. The report of this
   /// rank: health bits or-ed, `where` = global index of the first bad cell (lowest id), ends of blocks left empty.
   SweepReport sweep(int direction, Real dt);
@@ -78,6 +90,8 @@ class Flow {
   BoundaryLedger ledger_, saved_ledger_;
   std::vector<std::vector<Real>> saved_;
   BlockSweeper* sweeper_ = nullptr;
+  SweepOptions options_;
+  std::unique_ptr<ShockSensor> sensor_;
 };
 
 /// The cells of a block as a box for sweep_box.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/keys.hpp"
-#include "fluid/gas/gas.hpp"
+#include "fluid/flux/sweep.hpp"
 #include "fluid/grid/grid.hpp"
 
 namespace brisance::fluid {
@@ -40,6 +40,8 @@ struct GasState {
 struct EulerConfig {
   int order = 5;
   double cfl = 0.8;
+  bool hybrid = true;
+  double shear_dissipation = 0.3;
   Location at;
   static void keys(Keys<EulerConfig>& k) {
     k("order", &EulerConfig::order, "", "order of the OSMP flux").one_of({1, 3, 5, 7, 9, 11});
@@ -47,6 +49,15 @@ struct EulerConfig {
       "Courant number of each sweep; above 0.9 pairs of steps may be rejected and redone")
         .above(0)
         .at_most(0.9);
+    k("hybrid", &EulerConfig::hybrid, "",
+      "coefficients of the third order frozen next to pressure jumps above 20 %: sharper shocks; false: everywhere "
+      "semi-local");
+    k("shear_dissipation", &EulerConfig::shear_dissipation, "1",
+      "2D and 3D: least speed, in sound speeds, of shear and entropy waves beside shocks that run across a sweep; "
+      "keeps "
+      "strong shocks along the grid whole; 0: off")
+        .at_least(0)
+        .at_most(1);
   }
 };
 
@@ -101,6 +112,9 @@ struct FlowConfig {
   Location at;
 
   int order() const { return euler ? euler->order : 1; }
+  SweepOptions options() const {
+    return euler ? SweepOptions{euler->hybrid, euler->shear_dissipation} : SweepOptions{};
+  }
   static void keys(Keys<FlowConfig>& k);
 };
 

@@ -25,8 +25,10 @@ void Flow::sweep_block(Block& block, int direction, Real dt, SweepReport& total)
     merge(total, sweeper_->sweep(block, direction, dt), block.first(), grid_);
     return;
   }
-  SweepReport const report =
-      sweep_box(order_, box_of(block, grid_.dimension), direction, dt / grid_.spacing[direction], gas_);
+  CellBox box = box_of(block, grid_.dimension);
+  if (CellLayer<std::uint8_t> const* const layer = marks(block))
+    box.marks = layer->at(0, 0, 0), box.mark_stride = layer->stride();
+  SweepReport const report = sweep_box(order_, box, direction, dt / grid_.spacing[direction], gas_, options_);
   merge(total, report, block.first(), grid_);
   for (int side = 0; side < 2; ++side)
     if (grid_.neighbour(block.id(), direction, side) < 0) {

@@ -4,6 +4,7 @@ brisance_test(fluid_domain_unit
   LINKS brisance::fluid
   LABELS unit)
 brisance_test(fluid_ghosts SOURCES unit/fluid/ghosts_test.cpp LINKS brisance::fluid RANKS 1 2 3 4 LABELS unit)
+brisance_test(fluid_shock_sensor SOURCES unit/fluid/shock_sensor_test.cpp LINKS brisance::fluid RANKS 1 3 LABELS unit)
 brisance_test(fluid_initial_state
   SOURCES unit/fluid/initial_state_test.cpp unit/fluid/rows_test.cpp
   LINKS brisance::fluid

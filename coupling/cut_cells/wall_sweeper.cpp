@@ -79,6 +79,11 @@ void WallSweeper::begin_step() {
 
 void WallSweeper::prepare(int, Real) { refresh_mirrors(); }
 
+bool WallSweeper::is_fluid(Block const& block, Index i, Index j, Index k) const {
+  CellIndex const first = block.first();
+  return !record_->solid({first[0] + i, first[1] + j, first[2] + k});
+}
+
 fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
   auto const d = static_cast<std::size_t>(direction);
   std::size_t const t0 = d == 0 ? 1 : 0, t1 = d == 2 ? 1 : 2;
@@ -94,6 +99,9 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
   scratch_pressure_.resize(static_cast<std::size_t>(n) * width);
   scratch_order_.resize(static_cast<std::size_t>(n + 1) * width);
   auto const& component = sweep_component[d];
+  fluid::CellLayer<std::uint8_t> const* const marks = flow_.marks(block);
+  auto const across = static_cast<std::uint8_t>(7u & ~(1u << d));
+  if (marks) scratch_marks_.resize(static_cast<std::size_t>(n + 2) * width);
 
   fluid::SweepReport total;
   flux_between_solids(block, wall, direction, sigma);
@@ -141,6 +149,13 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
       };
       beyond(run.low, from - 1, std::min(from - 1, -ghost - 1), -1);
       beyond(run.high, to, std::max(to, longest + ghost), +1);
+      if (marks)  // mirror cells take the mark of the end of the run
+        for (Index i = -1; i <= longest; ++i) {
+          CellIndex at = c;
+          at[d] = std::min(start + std::clamp(i, std::max(run.begin - start, Index{-1}), run.end - 1 - start), n);
+          scratch_marks_[static_cast<std::size_t>(i + 1) * width + lane] =
+              (*marks->at(at[0], at[1], at[2]) & across) != 0;
+        }
       for (Index f = 0; f <= longest; ++f) {
         Index const at = start + f;
         Index room = 6;
@@ -150,10 +165,15 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
         scratch_order_[static_cast<std::size_t>(f) * width + lane] = beyond_run ? 0 : order_within(order, room);
       }
     }
-    fluid::LineBundle const bundle{
-        longest, u0, scratch_result_.data(), scratch_flux_.data(), scratch_pressure_.data(), scratch_order_.data()};
-    fluid::SweepReport const report =
-        fluid::sweep_lines(order, bundle, static_cast<std::uint32_t>((1u << used) - 1), sigma, flow_.gas());
+    fluid::LineBundle const bundle{longest,
+                                   u0,
+                                   scratch_result_.data(),
+                                   scratch_flux_.data(),
+                                   scratch_pressure_.data(),
+                                   scratch_order_.data(),
+                                   marks ? scratch_marks_.data() + width : nullptr};
+    fluid::SweepReport const report = fluid::sweep_lines(order, bundle, static_cast<std::uint32_t>((1u << used) - 1),
+                                                         sigma, flow_.gas(), flow_.options());
     total.fallback_faces += report.fallback_faces;
     total.signal_max = max(total.signal_max, report.signal_max);
 

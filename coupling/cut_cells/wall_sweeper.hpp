@@ -64,6 +64,7 @@ class WallSweeper : public fluid::BlockSweeper {
   bool handles(Index block) const override { return blocks_.contains(block); }
   void prepare(int direction, Real dt) override;
   fluid::SweepReport sweep(fluid::Block& block, int direction, Real dt) override;
+  bool is_fluid(fluid::Block const& block, Index i, Index j, Index k) const override;
 
   std::map<Index, WallBlock>& blocks() { return blocks_; }
   std::map<Index, WallBlock> const& blocks() const { return blocks_; }
@@ -85,7 +86,7 @@ class WallSweeper : public fluid::BlockSweeper {
   StateGather images_;
   CellSet near_;
   std::vector<Real> scratch_u_, scratch_result_, scratch_flux_, scratch_pressure_;
-  std::vector<std::uint8_t> scratch_order_;
+  std::vector<std::uint8_t> scratch_order_, scratch_marks_;
 };
 
 }  // namespace brisance::coupling
