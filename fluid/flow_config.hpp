@@ -50,8 +50,8 @@ struct EulerConfig {
         .above(0)
         .at_most(0.9);
     k("hybrid", &EulerConfig::hybrid, "",
-      "coefficients of the third order frozen next to pressure jumps above 20 %: sharper shocks; false: everywhere "
-      "semi-local");
+      "third-order terms of acoustic waves with frozen coefficients in strong expansions (JWL: compressions), which "
+      "sharpens blasts; false: everywhere semi-local");
     k("shear_dissipation", &EulerConfig::shear_dissipation, "1",
       "2D and 3D: least speed, in sound speeds, of shear and entropy waves beside shocks that run across a sweep; "
       "keeps "

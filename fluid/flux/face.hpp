@@ -23,7 +23,7 @@ struct SweepConstants {
   V gamma, kappa, sigma, inv_sigma;
   V vacuum_density, vacuum_energy;
   V hlle_limit;  ///< m/s: above this signal speed the low-order flux is LLF (theory/fluid.md 4.1)
-  bool hybrid;   ///< frozen coefficients next to pressure jumps (theory/fluid.md 2.4)
+  bool hybrid;   ///< acoustic waves with frozen coefficients next to pressure jumps
   V shear;       ///< eta of the transverse cure (theory/fluid.md 2.7)
   ReferenceCurve curve;
 
@@ -104,7 +104,7 @@ struct Face {
   V u, v, w, enthalpy, sound, inv_sound;
   V speed1, speed5;       ///< acoustic speeds with the entropy cure, >= 0
   V room1, room0, room5;  ///< (1 - nu)/(2 sigma) of the three wave speeds
-  V steep;                ///< > 0: the pressures of the two cells differ by more than 20 %
+  V steep;                ///< > 0: see `steepness`
   V cure;                 ///< m/s: least speed of the shear and entropy waves beside a transverse shock; 0: none
   V low_flux[5];          ///< positive flux
   V above_low[5];         ///< mean of the two analytic fluxes minus low_flux
@@ -229,6 +229,21 @@ BRISANCE_INLINE V secant(Cell<V, Curve> const& l, Cell<V, Curve> const& r, Sweep
   return select(apart, slope, V(0.5) * (l.curve.f_slope + r.curve.f_slope)) / k.kappa;
 }
 
+/// > 0 where the pressures of the two cells differ by more than 20 % and the gas between them expands: there the
+/// acoustic waves take frozen coefficients (`hybrid`). With exponentials in the reference curve, where it is
+/// compressed. theory/fluid.md 2.4 freezes all waves beside all jumps; fluid/README.md has the measurements that led
+/// here.
+template <class V, class Curve>
+BRISANCE_INLINE V steepness(Cell<V, Curve> const& l, Cell<V, Curve> const& r, SweepConstants<V, Curve> const& k) {
+  V const none(-1.0), share(0.2);
+  if constexpr (Curve::curved) {
+    V const jump = fnma(share, min(l.curve.scale, r.curve.scale), abs(r.curve.pressure - l.curve.pressure));
+    return k.curve.exponential() ? select(r.u < l.u, jump, none) : select(r.u > l.u, jump, none);
+  } else {
+    return select(r.u > l.u, fnma(share, min(l.energy, r.energy), abs(r.energy - l.energy)), none);
+  }
+}
+
 /// Everything of a face that depends on its two cells only, and the low-order state of the cell between it and
 /// `previous`.
 template <int Order, class V, class Curve>
@@ -284,10 +299,7 @@ BRISANCE_INLINE void form_face(Cell<V, Curve> const& l, Cell<V, Curve> const& r,
     f.room1 = half * max(k.inv_sigma - speed1, none);
     f.room0 = half * max(k.inv_sigma - speed0, none);
     f.room5 = half * max(k.inv_sigma - speed5, none);
-    if constexpr (Curve::curved)
-      f.steep = fnma(V(0.2), min(l.curve.scale, r.curve.scale), abs(r.curve.pressure - l.curve.pressure));
-    else
-      f.steep = fnma(V(0.2), min(l.energy, r.energy), abs(r.energy - l.energy));
+    f.steep = steepness(l, r, k);
     V const one(1.0), sixth(1.0 / 6);
     V const nu1 = min(k.sigma * speed1, one), nu0 = min(k.sigma * speed0, one), nu5 = min(k.sigma * speed5, one);
     V const factor0 = sixth * u * fnma(nu0, nu0, one);

@@ -224,8 +224,8 @@ class Pencil {
     characteristic_fluxes<true>(f, frame, part, k, face_order, steep);
   }
 
-  /// The five fields. `Mixed`: lanes that are `steep` take the third-order terms with the coefficients of this face
-  /// from the jumps, the others as they are (theory/fluid.md 2.4, `hybrid`).
+  /// The five fields. `Mixed`: lanes that are `steep` take the third-order terms of the acoustic waves with the
+  /// coefficients of this face from the jumps, the others as they are (theory/fluid.md 2.4, `hybrid`).
   template <bool Mixed>
   BRISANCE_INLINE void characteristic_fluxes(Face<V, Curve> const& f, Frame<V> const& frame, V* part,
                                              SweepConstants<V, Curve> const& k, std::uint8_t const* face_order,
@@ -245,11 +245,12 @@ class Pencil {
     V const two(2.0);
     auto run = [&](auto const& keep) __attribute__((always_inline)) {
       // One field: `component(a, y)` is its strength in a jump or correction y with the acoustic part a.
-      auto field = [&](Wave<Order, V> const& wave, V strength, auto const& component) __attribute__((always_inline)) {
+      auto field = [&](Wave<Order, V> const& wave, V strength, auto acoustic, auto const& component)
+          __attribute__((always_inline)) {
         auto jump = [&](int z) __attribute__((always_inline)) { return component(jumps[middle + z], x[middle + z]); };
         auto third = [&](int z) __attribute__((always_inline)) {
           V const own = component(thirds[half + z], p[half + z]);
-          if constexpr (!Mixed) return own;
+          if constexpr (!Mixed || !acoustic.value) return own;
           V const nu = min(k.sigma * (two * wave.half_speed), V(1.0));
           V const factor = flip(V(1.0 / 3) * wave.half_speed * fnma(nu, nu, V(1.0)), wave.sign);
           return select(steep, factor * (z == 0 ? strength : jump(z)), own);
@@ -258,22 +259,22 @@ class Pencil {
       };
       using A = Acoustic<V>;
       part[0] = field(
-          make_wave(f.u - f.sound, f.speed1, low.room1, high.room1, k), f.strength[0],
+          make_wave(f.u - f.sound, f.speed1, low.room1, high.room1, k), f.strength[0], std::true_type{},
           [](A const& a, V const*) __attribute__((always_inline)) { return a.pressure - a.velocity; });
       part[4] = field(
-          make_wave(f.u + f.sound, f.speed5, low.room5, high.room5, k), f.strength[4],
+          make_wave(f.u + f.sound, f.speed5, low.room5, high.room5, k), f.strength[4], std::true_type{},
           [](A const& a, V const*) __attribute__((always_inline)) { return a.pressure + a.velocity; });
       auto const wave = make_wave(f.u, abs(f.u), low.room0, high.room0, k);
       part[1] = field(
-          wave, f.strength[1], [&](A const& a, V const* y) __attribute__((always_inline)) {
+          wave, f.strength[1], std::false_type{}, [&](A const& a, V const* y) __attribute__((always_inline)) {
             return fnma(two, a.pressure, y[0]);
           });
       part[2] = field(
-          wave, f.strength[2], [&](A const&, V const* y) __attribute__((always_inline)) {
+          wave, f.strength[2], std::false_type{}, [&](A const&, V const* y) __attribute__((always_inline)) {
             return fnma(frame.v, y[0], y[2]);
           });
       part[3] = field(
-          wave, f.strength[3], [&](A const&, V const* y) __attribute__((always_inline)) {
+          wave, f.strength[3], std::false_type{}, [&](A const&, V const* y) __attribute__((always_inline)) {
             return fnma(frame.w, y[0], y[3]);
           });
     };

@@ -11,7 +11,7 @@ namespace brisance::fluid {
 
 /// Choices of the scheme beside its order.
 struct SweepOptions {
-  bool hybrid = false;  ///< frozen coefficients next to pressure jumps (theory/fluid.md 2.4)
+  bool hybrid = false;  ///< acoustic waves with frozen coefficients next to pressure jumps (fluid/README.md)
   Real shear_dissipation =
       0;  ///< eta of the cure beside transverse shocks (theory/fluid.md 2.7); acts where marks are set
 };

@@ -87,7 +87,7 @@ PlainFace face_between(State const& ul, State const& ur, PlainCell const& l, Pla
     }
     f.third = f.out_of(h);
   }
-  f.steep = std::abs(r.p - l.p) > 0.2 * std::min(l.scale, r.scale);
+  f.steep = std::abs(r.p - l.p) > 0.2 * std::min(l.scale, r.scale) && (gas.curve.exponential() ? r.u < l.u : r.u > l.u);
   double const hlle_courant = gas.gamma <= 1.67 && !gas.curve.exponential() ? 0.905 : gas.kappa() <= 2 ? 0.8 : 0.5;
   bool const llf = f.vacuum || sigma * a > hlle_courant;
   double const sl = std::min({0.0, l.u - l.c, f.u - f.c}), sr = std::max({0.0, r.u + r.c, f.u + f.c});
@@ -110,7 +110,7 @@ double field(std::vector<PlainFace> const& faces, std::size_t f, std::size_t k, 
   if (order == 1 || face.vacuum) return -0.5 * speed * own;
   auto jump = [&](int z) { return face.into(faces[at(z)].jump, kappa)[k]; };
   bool frozen = false;
-  for (int z = -2; z <= 2; ++z) frozen = frozen || (hybrid && faces[at(z)].steep);
+  for (int z = -2; z <= 2; ++z) frozen = frozen || (hybrid && (k == 0 || k == 4) && faces[at(z)].steep);
   auto third = [&](int z) {
     return frozen ? speed * (1 - nu * nu) / 3 * jump(z) : s * face.into(faces[at(z)].third, kappa)[k];
   };
