@@ -5,13 +5,14 @@
 
 #include "core/base/errors.hpp"
 #include "coupling/cut_cells/cell_geometry.hpp"
+#include "fluid/cell_fields.hpp"
 #include "fluid/initial_state.hpp"
 
 namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
-  static std::vector<std::string> const names{"fluid.euler", "solid.motion", "solid.links", "solid.gravity",
-                                              "coupling.cut_cells"};
+  static std::vector<std::string> const names{"fluid.euler",   "solid.motion",       "solid.links",
+                                              "solid.gravity", "coupling.cut_cells", "output.gauges"};
   return names;
 }
 
@@ -50,6 +51,21 @@ void require_clear_periodic_sides(Scene const& scene, fluid::Grid const& grid, s
                       "solid.body \"" + mesh.bodies[static_cast<std::size_t>(mesh.particle(t.particle).body)].name +
                           "\" is closer than " + std::to_string(reach) + " cells to a side that is periodic along " +
                           "xyz"[d] + ": move it away, or make the side another");
+    }
+}
+
+/// Gauges stand in the gas: on the surface of a body, but not in it.
+void require_gauges_in_the_gas(Scene const& scene, fluid::Grid const& grid, solid::Mesh const& mesh) {
+  for (fluid::GaugeConfig const& gauge : scene.output.gauge)
+    for (GlobalId p = 0; p < mesh.size(); ++p) {
+      Real depth = std::numeric_limits<Real>::infinity();
+      for (solid::FaceGeometry const& face : mesh.shape(p).faces)
+        if (!solid::is_side_of_slab(face, grid.dimension))
+          depth = min(depth, dot(face.normal, face.centroid + mesh.particle(p).centre - gauge.position));
+      if (depth > 1e-9 * coupling::smallest_spacing(grid))
+        scene_error(gauge.at, "output.gauge \"" + gauge.name + "\" stands inside solid.body \"" +
+                                  mesh.bodies[static_cast<std::size_t>(mesh.particle(p).body)].name +
+                                  "\": move it into the gas");
     }
 }
 
@@ -128,6 +144,8 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     fluid::check(*scene.fluid);
     grid = fluid::make_grid(*scene.fluid);
     w.dimension = grid->dimension;
+    fluid::check(scene.output.gauge, *scene.fluid, *grid, scene.end_time);
+    fluid::check_cell_fields(scene.output.fields, *scene.fluid, grid->dimension, scene.output.at);
   }
   bool const coupled = scene.coupling && scene.coupling->cut_cells;
   require(!coupled || w.dimension >= 2, Failure::scene, "coupling.cut_cells needs a fluid in 2 or 3 dimensions");
@@ -138,6 +156,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     w.surface = std::make_unique<solid::Surface>(*w.mesh);
   }
   if (coupled) require_clear_periodic_sides(scene, *grid, *w.mesh, *w.surface);
+  if (coupled) require_gauges_in_the_gas(scene, *grid, *w.mesh);
   if (coupled) w.cut_cells_of_block = count_cut_cells(*grid, *w.mesh, *w.surface);
   w.partition = assign_owners(scene, grid ? &*grid : nullptr, w.mesh.get(), w.cut_cells_of_block, comm.size());
   auto const blocks = static_cast<std::ptrdiff_t>(grid ? grid->block_count() : 0);
@@ -162,15 +181,23 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (w.euler) w.euler->join(w.plan);
   if (w.dynamics) w.dynamics->join(w.plan);
   if (w.cut_cells) w.cut_cells->join(w.plan);
+  if (!scene.output.gauge.empty()) {
+    w.gauges = std::make_unique<fluid::Gauges>(scene.output.gauge, *scene.fluid, *w.flow, fluid_volumes(w));
+    w.gauges->join(w.plan);
+  }
   TimeControl const control{scene.end_time, w.flow ? fluid::steps_per_pair(w.dimension) : 1,
                             scene.output.interval.value_or(0)};
   w.simulation = std::make_unique<Simulation>(w.plan, comm, control);
   return world;
 }
 
+fluid::FluidVolume fluid_volumes(World const& world) {
+  return world.cut_cells ? world.cut_cells->fluid_volumes() : fluid::FluidVolume{};
+}
+
 void start(World& w, Scene const& scene) {
   if (w.cut_cells) w.cut_cells->cut_initial_geometry();
-  if (w.flow) fluid::fill(*w.flow, *scene.fluid, w.cut_cells ? w.cut_cells->fluid_volumes() : fluid::FluidVolume{});
+  if (w.flow) fluid::fill(*w.flow, *scene.fluid, fluid_volumes(w));
   if (w.cut_cells) w.cut_cells->start();
   if (w.dynamics) w.dynamics->start();
   w.simulation->audit();

@@ -12,6 +12,7 @@
 #include "drivers/scene.hpp"
 #include "fluid/euler.hpp"
 #include "fluid/flow.hpp"
+#include "fluid/gauges/gauges.hpp"
 #include "parallel/partition.hpp"
 
 namespace brisance::drivers {
@@ -29,6 +30,7 @@ struct World {
   std::unique_ptr<fluid::Euler> euler;
   std::unique_ptr<solid::Dynamics> dynamics;
   std::unique_ptr<coupling::CutCells> cut_cells;
+  std::unique_ptr<fluid::Gauges> gauges;
   Plan plan;
   std::unique_ptr<Simulation> simulation;
 };
@@ -44,6 +46,9 @@ parallel::Partition assign_owners(Scene const& scene, fluid::Grid const* grid, s
 
 /// Cut cells of each block for the bodies in their initial positions.
 std::vector<Index> count_cut_cells(fluid::Grid const& grid, solid::Mesh const& mesh, solid::Surface const& surface);
+
+/// What walls leave of the cells to the fluid; all of it without a coupling.
+fluid::FluidVolume fluid_volumes(World const& world);
 
 /// Collective. Initial fields, geometry, forces and loads; takes the reference of the account.
 void start(World& world, Scene const& scene);

@@ -10,6 +10,7 @@
 #include "drivers/assembly.hpp"
 #include "drivers/commands.hpp"
 #include "drivers/log.hpp"
+#include "fluid/charges.hpp"
 #include "fluid/flux/sweep.hpp"
 
 namespace brisance::drivers {
@@ -22,12 +23,13 @@ struct FluidStep {
 };
 
 /// Acoustic step of the initial states; a run adds the slow start and what the flow becomes.
-FluidStep initial_acoustic_step(fluid::FlowConfig const& flow, fluid::Grid const& grid) {
+FluidStep initial_acoustic_step(fluid::FlowConfig const& flow, fluid::Grid const& grid, fluid::Gas const& gas,
+                                std::vector<fluid::ChargeReport> const& charges) {
   FluidStep best;
   if (!flow.euler) return best;
   auto const consider = [&](std::string const& where, Real density, Real pressure, Vec3 const& velocity) {
     if (!(density > 0)) return;
-    Real const c = std::sqrt(flow.gas.gamma * pressure / density);
+    Real const c = gas.sound_speed(gas.conserved(density, velocity, pressure));
     for (int d = 0; d < grid.dimension; ++d) {
       Real const dt = flow.euler->cfl * grid.spacing[d] / (std::abs(velocity[d]) + c);
       if (dt < best.dt) best = {dt, where};
@@ -37,20 +39,7 @@ FluidStep initial_acoustic_step(fluid::FlowConfig const& flow, fluid::Grid const
   for (std::size_t r = 0; r < flow.region.size(); ++r)
     consider("fluid.region." + std::to_string(r), flow.region[r].density, flow.region[r].pressure,
              flow.region[r].velocity);
-  for (std::size_t c = 0; c < flow.charge.size(); ++c) {
-    fluid::ChargeConfig const& charge = flow.charge[c];
-    std::string const where = "fluid.charge." + std::to_string(c);
-    if (charge.pressure && charge.density) {
-      consider(where, *charge.density, *charge.pressure, {});
-    } else if (charge.mass) {
-      // p = p0 + Gamma W / V_b with W = 4.184 MJ/kg (theory/fluid.md 1.3); c depends on the volume through p0 only.
-      Real const density = charge.density.value_or(
-          *charge.mass /
-          (charge.radius ? std::pow(*charge.radius, grid.dimension) * (grid.dimension == 3 ? 4.18879 : 3.14159) : 1));
-      consider(where, density, flow.ambient.pressure + (flow.gas.gamma - 1) * 4.184e6 * charge.tnt_factor * density,
-               {});
-    }
-  }
+  for (fluid::ChargeReport const& charge : charges) consider(charge.name, charge.density, charge.pressure, {});
   return best;
 }
 
@@ -90,9 +79,10 @@ std::string human_time(Real seconds) {
 
 std::string why_off(std::string const& effect, Scene const& scene) {
   std::string const domain = effect.substr(0, effect.find('.'));
-  bool const open = domain == "fluid"   ? scene.fluid.has_value()
-                    : domain == "solid" ? scene.solid.has_value()
-                                        : scene.coupling.has_value();
+  bool const open = domain == "fluid"    ? scene.fluid.has_value()
+                    : domain == "solid"  ? scene.solid.has_value()
+                    : domain == "output" ? true
+                                         : scene.coupling.has_value();
   return open ? effect.substr(effect.find('.') + 1) + " is not in [" + domain + "]" : "no [" + domain + "]";
 }
 
@@ -112,7 +102,13 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
   for (Index const n : world->cut_cells_of_block) cut += n;
   std::int64_t const particles = world->mesh ? world->mesh->size() : 0;
   auto const links = static_cast<std::int64_t>(world->mesh ? world->mesh->links.size() : 0);
-  FluidStep const acoustic = scene.fluid ? initial_acoustic_step(*scene.fluid, *grid) : FluidStep{};
+  std::vector<fluid::ChargeReport> charges;
+  if (scene.fluid && !scene.fluid->charge.empty()) {
+    if (world->cut_cells) world->cut_cells->cut_initial_geometry();  // charges fill what bodies leave to the gas
+    charges = fluid::measure_charges(*world->flow, *scene.fluid, fluid_volumes(*world));
+  }
+  FluidStep const acoustic =
+      scene.fluid ? initial_acoustic_step(*scene.fluid, *grid, world->flow->gas(), charges) : FluidStep{};
   std::vector<Real> links_dt{world->solid ? world->solid->stable_step() : std::numeric_limits<Real>::infinity()};
   comm.min(std::span(links_dt));
   Real const dt = min(acoustic.dt, links_dt[0]);
@@ -161,6 +157,15 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
     j["particles"] = particles;
     j["links"] = links;
     for (std::string const& name : catalogue()) j["effects"][name] = active(name);
+    for (fluid::ChargeReport const& c : charges)
+      j["charges"].push_back({{"name", c.name},
+                              {"mass", c.mass},
+                              {"energy", c.energy},
+                              {"tnt_mass_by_energy", c.tnt_mass},
+                              {"radius", c.radius},
+                              {"cells_across", c.cells_across},
+                              {"density", c.density},
+                              {"pressure", c.pressure}});
     j["dt"] = {{"initial", dt}, {"limited_by", limited_by}};
     j["steps"] = std::ceil(steps);
     j["ranks"] = options.ranks;
@@ -183,6 +188,11 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
   }
   fmt::print("\nsize\n  {} cells in {} blocks, {} cut; {} particles, {} links\n", cells, blocks, cut, particles, links);
   fmt::print("  memory per rank: at most {:.0f} MB on {} ranks\n", most / 1e6, options.ranks);
+  if (!charges.empty()) fmt::print("\ncharges\n");
+  for (fluid::ChargeReport const& c : charges) {
+    fmt::print("  {}\n", fluid::describe(c, world->dimension));
+    if (std::string const text = fluid::warning(c); !text.empty()) fmt::print("  warning: {}\n", text);
+  }
   fmt::print("\ntime step\n  {:.3g} s at the start, limited by {}; about {:.0f} steps to {:.3g} s\n", dt, limited_by,
              std::ceil(steps), scene.end_time);
   fmt::print("\npartition on {} ranks\n  imbalance (largest over mean):", options.ranks);

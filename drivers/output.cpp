@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "fluid/cell_fields.hpp"
 #include "fluid/rows.hpp"
 
 namespace brisance::drivers {
@@ -48,8 +49,9 @@ void Output::write_fields(std::string const& path) {
   auto const boxes = fluid::cell_boxes(flow);
   fluid::Grid const& grid = flow.grid();
   std::array<std::int64_t, 3> const cells{grid.cells[0], grid.cells[1], grid.cells[2]};
+  fluid::FluidVolume const volume = fluid_volumes(world_);
   for (std::string const& name : scene_.output.fields) {
-    fluid::CellField const field = fluid::cell_field(flow, name);
+    fluid::CellField const field = fluid::cell_field(flow, *scene_.fluid, volume, name);
     file.grid(name, cells, field.columns, boxes, field.data, true);
   }
   if (world_.cut_cells) {
@@ -138,7 +140,7 @@ void Output::write_series() {
       std::vector<std::string> names = scene_.output.fields;
       if (world_.cut_cells) names.push_back("solid_fraction");
       for (std::string const& name : names) {
-        bool const vector = name == "velocity";
+        bool const vector = fluid::cell_field_columns(name, g.dimension) == 3;
         grids += fmt::format(
             "    <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Cell\"><DataItem Format=\"HDF\" Precision=\"4\" "
             "Dimensions=\"{} {} {}{}\">fields/{}:/{}</DataItem></Attribute>\n",

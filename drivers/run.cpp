@@ -12,6 +12,7 @@
 #include "drivers/log.hpp"
 #include "drivers/output.hpp"
 #include "drivers/summary.hpp"
+#include "fluid/charges.hpp"
 #include "parallel/archive.hpp"
 #include "parallel/error.hpp"
 
@@ -102,6 +103,15 @@ void resume(World& world, std::vector<std::string> const& candidates) {
   }
 }
 
+/// Mass and energy of every charge, which are two figures, and whether the grid resolves it.
+void log_charges(World& world, Scene const& scene) {
+  if (!scene.fluid || scene.fluid->charge.empty()) return;
+  for (fluid::ChargeReport const& report : fluid::measure_charges(*world.flow, *scene.fluid, fluid_volumes(world))) {
+    spdlog::info("{}", fluid::describe(report, world.dimension));
+    if (std::string const text = fluid::warning(report); !text.empty()) spdlog::warn("{}", text);
+  }
+}
+
 int execute(Job const& job, parallel::Comm& comm) {
   double const begin = seconds_now();
   Scene const& scene = job.loaded.scene;
@@ -116,10 +126,14 @@ int execute(Job const& job, parallel::Comm& comm) {
   }
   if (fresh) forget_checkpoints(comm, job.directory);
 
-  if (fresh)
+  if (fresh) {
     start(*world, scene);
-  else
+    log_charges(*world, scene);
+  } else {
     resume(*world, job.checkpoints);
+  }
+  if (world->gauges)
+    for (std::string const& remark : world->gauges->open(job.directory, simulation.clock())) spdlog::warn("{}", remark);
   Output output(*world, scene, job.directory);
   comm.barrier();
   if (fresh)
@@ -151,6 +165,7 @@ int execute(Job const& job, parallel::Comm& comm) {
   while (!reached()) {
     std::int64_t const retries = simulation.statistics().retries;
     simulation.pair();
+    if (world->gauges) world->gauges->accept(simulation.clock());
     if (simulation.statistics().retries > retries && warnings++ < 20)
       spdlog::warn("step {}: a pair of steps was redone with dt = {:.3g} s: {}", simulation.clock().step,
                    simulation.clock().dt, simulation.statistics().last_rejection);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/base/errors.hpp"
+#include "fluid/cell_fields.hpp"
 
 namespace brisance::drivers {
 namespace {
@@ -47,6 +48,8 @@ void check_sections(Scene const& scene) {
   require(
       !scene.coupling || (scene.fluid && scene.solid), scene.at,
       std::string("[coupling] needs both [fluid] and [solid]; [") + (scene.fluid ? "solid" : "fluid") + "] is missing");
+  require(scene.output.gauge.empty() || scene.fluid, scene.output.at,
+          "output.gauge: gauges stand in the gas, and the scene has no [fluid]");
 }
 
 }  // namespace
@@ -61,7 +64,8 @@ void OutputConfig::keys(Keys<OutputConfig>& k) {
   k("history_interval", &OutputConfig::history_interval, "s",
     "time between two rows of history.csv; not given: a row per step")
       .above(0);
-  k("fields", &OutputConfig::fields, "", "fields of the fluid to write").one_of({"density", "pressure", "velocity"});
+  k("fields", &OutputConfig::fields, "", "fields of the fluid to write").words = fluid::cell_field_names();
+  k("gauge", &OutputConfig::gauge, "", "points where the gas is watched; each writes gauges/NAME.csv");
 }
 
 void Scene::keys(Keys<Scene>& k) {

@@ -8,6 +8,7 @@
 #include "core/solid/solid_config.hpp"
 #include "coupling/coupling_config.hpp"
 #include "fluid/flow_config.hpp"
+#include "fluid/gauges/gauge_config.hpp"
 #include "parallel/comm.hpp"
 
 namespace brisance::drivers {
@@ -18,6 +19,7 @@ struct OutputConfig {
   std::optional<double> checkpoint_interval;  // s
   std::optional<double> history_interval;     // s
   std::vector<std::string> fields = {"density", "pressure", "velocity"};
+  std::vector<fluid::GaugeConfig> gauge;
   Location at;
   static void keys(Keys<OutputConfig>& k);
 };

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -19,12 +20,29 @@ double imbalance(std::vector<double> const& per_rank) {
   return sum > 0 ? most * static_cast<double>(per_rank.size()) / sum : 1;
 }
 
+nlohmann::ordered_json gauge_figures(fluid::Gauges const& gauges) {
+  nlohmann::ordered_json all;
+  for (std::size_t g = 0; g < gauges.configs().size(); ++g) {
+    fluid::GaugeConfig const& gauge = gauges.configs()[g];
+    fluid::GaugeFigures const& f = gauges.figures(g);
+    all[gauge.name] = {{"position", {gauge.position.x, gauge.position.y, gauge.position.z}},
+                       {"arrival_time", number_or_null(f.arrival)},
+                       {"peak_overpressure", number_or_null(f.peak)},
+                       {"peak_time", number_or_null(f.peak_time)},
+                       {"lowest_overpressure", number_or_null(f.lowest)},
+                       {"positive_duration", number_or_null(f.phase_end - f.phase_start)},
+                       {"positive_phase_impulse",
+                        std::isnan(f.phase_start) ? nlohmann::json(nullptr) : number_or_null(f.phase_impulse)},
+                       {"impulse", f.impulse}};
+  }
+  return all;
+}
+
 }  // namespace
 
 void update_extrema(World& world, RunState& run) {
   if (!world.flow) return;
-  fluid::Extremes const e =
-      fluid::extremes(*world.flow, world.cut_cells ? world.cut_cells->fluid_volumes() : fluid::FluidVolume{});
+  fluid::Extremes const e = fluid::extremes(*world.flow, fluid_volumes(world));
   std::array<double, 2> low{e.density_min, e.pressure_min};
   std::array<double, 1> high{e.mach_max};
   world.comm->min(low);
@@ -36,6 +54,7 @@ void update_extrema(World& world, RunState& run) {
 
 void write_summary(World& world, RunState const& run, std::string const& directory) {
   parallel::Comm& comm = *world.comm;
+  if (world.gauges) world.gauges->flush();
   Simulation& simulation = *world.simulation;
   std::string const digest = simulation.digest().hex();
 
@@ -129,6 +148,7 @@ void write_summary(World& world, RunState const& run, std::string const& directo
     j["partition"] = {{"imbalance_cells", imbalance(cells)},
                       {"imbalance_measured", imbalance(busy)},
                       {"edge_cut", world.partition.edge_cut}};
+    if (world.gauges) j["gauges"] = gauge_figures(*world.gauges);
     j["state_digest"] = digest;
     text = j.dump(2) + "\n";
   }

@@ -30,13 +30,28 @@ void check_region(RegionConfig const& region, std::string const& name) {
             ": a half_space needs `point` and a `normal` that is not zero (it fills the side the normal points to).");
 }
 
-void check_charge(ChargeConfig const& charge, std::string const& name) {
-  bool const by_energy = charge.mass && !charge.pressure && charge.radius.has_value() != charge.density.has_value();
-  bool const by_state = !charge.mass && charge.radius && charge.density && charge.pressure;
-  demand(by_energy || by_state, charge.at,
-         name +
-             ": give either `mass` with one of `radius` and `density` (energy from TNT), or the gas state `radius`, "
-             "`density`, `pressure`.");
+void check_charge(ChargeConfig const& charge, int dimension, std::string const& name) {
+  auto const check = [&](bool ok, char const* message) { demand(ok, charge.at, name + ": " + message); };
+  bool const ball = charge.shape == "ball", box = charge.shape == "box", cylinder = charge.shape == "cylinder";
+  check(!cylinder || dimension == 3,
+        "a cylinder needs three dimensions; in 2D, a ball is one along z, a box one across.");
+  check(!box || (charge.size && !charge.radius && !charge.length), "a box has its lengths as `size`, nothing else.");
+  if (box)
+    for (int d = 0; d < dimension; ++d) check((*charge.size)[d] > 0, "every length in `size` must be above 0.");
+  check(!cylinder || (charge.radius && charge.length && !charge.size), "a cylinder has `radius`, `length` and `axis`.");
+  check(!ball || (!charge.size && !charge.length), "a ball has a `radius`, or a `density` from which it follows.");
+  check(!(charge.mass && charge.energy && charge.tnt_factor),
+        "`mass`, `energy` and `tnt_factor` overdetermine it: energy = 4.184 MJ/kg x tnt_factor x mass; leave one out.");
+  if (charge.mass || charge.energy) {
+    check(!charge.pressure, "its pressure follows from its energy: leave `pressure` out.");
+    check(ball ? charge.radius.has_value() != charge.density.has_value() : !charge.density,
+          ball ? "give one of `radius` and `density`; the other follows from the mass."
+               : "its density follows from its mass and shape: leave `density` out.");
+  } else {
+    check(charge.density && charge.pressure && (!ball || charge.radius) && !charge.tnt_factor,
+          "give either how much it is, by `mass` (kg of explosive) or `energy` (J) or both, or the gas state `density` "
+          "and `pressure` with the extent.");
+  }
 }
 
 }  // namespace
@@ -101,12 +116,25 @@ void RegionConfig::keys(Keys<RegionConfig>& k) {
 }
 
 void ChargeConfig::keys(Keys<ChargeConfig>& k) {
+  k("shape", &ChargeConfig::shape, "", "form of the balloon; cylinder: in 3D").one_of({"ball", "box", "cylinder"});
   k("centre", &ChargeConfig::centre, "m", "centre of the balloon").required();
-  k("radius", &ChargeConfig::radius, "m", "radius of the balloon").above(0);
-  k("density", &ChargeConfig::density, "kg/m3", "density of the balloon").above(0);
-  k("mass", &ChargeConfig::mass, "kg", "mass inside the domain (2D: per metre of depth)").above(0);
+  k("radius", &ChargeConfig::radius, "m", "ball, cylinder: its radius").above(0);
+  k("length", &ChargeConfig::length, "m", "cylinder: its length").above(0);
+  k("axis", &ChargeConfig::axis, "", "cylinder: direction of its axis").one_of({"x", "y", "z"});
+  k("size", &ChargeConfig::size, "m", "box: its lengths along x, y, z");
+  k("mass", &ChargeConfig::mass, "kg",
+    "mass of explosive, all of it inside the domain (2D: per metre of depth, 1D: per square metre)")
+      .above(0);
+  k("energy", &ChargeConfig::energy, "J",
+    "energy it releases; not given: 4.184 MJ/kg x tnt_factor x mass. Given without mass, the mass follows likewise")
+      .above(0);
+  k("tnt_factor", &ChargeConfig::tnt_factor, "1",
+    "energy relative to TNT of the same mass; not given: 1, or what mass and energy say")
+      .above(0);
+  k("density", &ChargeConfig::density, "kg/m3",
+    "density of the balloon: in place of a ball's radius, or of its gas state")
+      .above(0);
   k("pressure", &ChargeConfig::pressure, "Pa", "pressure, for a charge given by its gas state").above(0);
-  k("tnt_factor", &ChargeConfig::tnt_factor, "1", "energy relative to TNT of the same mass (4.184 MJ/kg)").above(0);
 }
 
 void FlowConfig::keys(Keys<FlowConfig>& k) {
@@ -222,7 +250,7 @@ void check(FlowConfig const& config) {
   for (std::size_t r = 0; r < config.region.size(); ++r)
     check_region(config.region[r], "fluid.region[" + std::to_string(r) + "]");
   for (std::size_t c = 0; c < config.charge.size(); ++c)
-    check_charge(config.charge[c], "fluid.charge[" + std::to_string(c) + "]");
+    check_charge(config.charge[c], n, "fluid.charge[" + std::to_string(c) + "]");
   check_states(config);
 }
 

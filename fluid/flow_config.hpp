@@ -89,11 +89,16 @@ struct RegionConfig {
   static void keys(Keys<RegionConfig>& k);
 };
 
-/// A balloon of hot gas at rest (theory/fluid.md 1.3). In 2D masses are per metre of depth.
+/// A balloon of hot gas at rest (theory/fluid.md 1.3), of which the mass and the energy are two figures. The grid is
+/// 1 m deep in absent directions: in 2D both are per metre of depth, in 1D per square metre.
 struct ChargeConfig {
+  std::string shape = "ball";
   Vec3 centre{};
-  std::optional<double> radius, density, mass, pressure;
-  double tnt_factor = 1;
+  std::optional<double> radius, length;
+  std::optional<Vec3> size;
+  std::string axis = "z";
+  std::optional<double> mass, energy, tnt_factor;  ///< two of them say how much; tnt_factor not given: 1
+  std::optional<double> density, pressure;
   Location at;
   static void keys(Keys<ChargeConfig>& k);
 };

@@ -20,7 +20,7 @@ class FluidVolume {
 
   /// Do walls cut this block? The plain loops serve the others.
   bool cuts(Index block) const { return cuts_ && cuts_(block); }
-  /// Expects: c lies in a block that is cut.
+  /// Expects: c lies in a block that is cut, or beside it.
   Real operator()(CellIndex c) const { return of_cell_(c); }
 
  private:

@@ -1,9 +1,5 @@
 #include "fluid/rows.hpp"
 
-#include <cmath>
-
-#include "core/base/errors.hpp"
-
 namespace brisance::fluid {
 namespace {
 
@@ -24,8 +20,6 @@ void for_cells(Blocks& blocks, Visit&& visit) {
         for (Index i = 0; i < nx; ++i) visit(block, i, j, k);
   }
 }
-
-Vec3 velocity(Gas const& gas, State const& u) { return gas.vacuum(u) ? Vec3{} : Vec3{u[1], u[2], u[3]} / u[0]; }
 
 }  // namespace
 
@@ -65,40 +59,6 @@ std::vector<parallel::ArchiveWriter::Box> cell_boxes(Flow const& flow) {
     boxes.push_back({{first[0], first[1], first[2]}, {size[0], size[1], size[2]}});
   }
   return boxes;
-}
-
-std::vector<std::string> const& cell_field_names() {
-  static std::vector<std::string> const names{"density", "pressure", "velocity", "energy", "mach"};
-  return names;
-}
-
-CellField cell_field(Flow const& flow, std::string const& name) {
-  Gas const& gas = flow.gas();
-  CellField field;
-  field.columns = name == "velocity" ? 3 : 1;
-  field.data.reserve(cells_of(flow) * static_cast<std::size_t>(field.columns));
-  auto const scalar = [&](auto const& value) {
-    for_cells(flow.blocks(),
-              [&](Block const& block, Index i, Index j, Index k) { field.data.push_back(value(block.load(i, j, k))); });
-  };
-  if (name == "density") {
-    scalar([](State const& u) { return u[0]; });
-  } else if (name == "pressure") {
-    scalar([&](State const& u) { return gas.pressure(u); });
-  } else if (name == "energy") {
-    scalar([](State const& u) { return u[4]; });
-  } else if (name == "mach") {
-    scalar([&](State const& u) { return gas.vacuum(u) ? 0 : norm(velocity(gas, u)) / gas.sound_speed(u); });
-  } else if (name == "velocity") {
-    for_cells(flow.blocks(), [&](Block const& block, Index i, Index j, Index k) {
-      Vec3 const v = velocity(gas, block.load(i, j, k));
-      field.data.insert(field.data.end(), {v.x, v.y, v.z});
-    });
-  } else {
-    throw Error(Failure::scene, "output.fields: there is no fluid field `" + name + "`. Did you mean `" +
-                                    nearest(name, cell_field_names()) + "`?");
-  }
-  return field;
 }
 
 }  // namespace brisance::fluid

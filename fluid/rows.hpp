@@ -1,4 +1,4 @@
-// Cells as rows of checkpoints and as boxes of output fields.
+// Cells as rows of checkpoints; the boxes of output fields.
 #pragma once
 #include <span>
 #include <string>
@@ -19,16 +19,5 @@ void unpack_cells(Flow& flow, std::span<double const> data);
 
 /// The owned blocks as boxes of the global array, for ArchiveWriter::grid.
 std::vector<parallel::ArchiveWriter::Box> cell_boxes(Flow const& flow);
-
-/// One output field over those boxes.
-struct CellField {
-  int columns = 1;
-  std::vector<double> data;
-};
-/// `name`: density (kg/m3), pressure (Pa), velocity (m/s, 3 columns), energy (total, J/m3), mach (1).
-/// Errors: scene error for another name.
-CellField cell_field(Flow const& flow, std::string const& name);
-/// The names cell_field() knows.
-std::vector<std::string> const& cell_field_names();
 
 }  // namespace brisance::fluid

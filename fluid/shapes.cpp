@@ -55,6 +55,23 @@ Real covered_by_ball(Grid const& grid, CellIndex c, Vec3 const& centre, Real rad
   return sampled(grid, c, samples, [&](Vec3 const& x) { return norm2(present(grid, x - centre)) < square(radius); });
 }
 
+Real covered_by_cylinder(Grid const& grid, CellIndex c, Vec3 const& centre, Real radius, Real length, int axis,
+                         int samples) {
+  constexpr Real far = 1e300;
+  Vec3 low{-far, -far, -far}, high{far, far, far};
+  low[axis] = centre[axis] - length / 2;
+  high[axis] = centre[axis] + length / 2;
+  Real const along = covered_by_box(grid, c, low, high);
+  auto const across = [&](Vec3 v) {
+    v[axis] = 0;
+    return present(grid, v);
+  };
+  Real const reach = 0.5 * norm(across(grid.spacing)), distance = norm(across(grid.centre(c) - centre));
+  if (along == 0 || distance - reach > radius) return 0;
+  if (distance + reach < radius) return along;
+  return along * sampled(grid, c, samples, [&](Vec3 const& x) { return norm2(across(x - centre)) < square(radius); });
+}
+
 Real covered_by_half_space(Grid const& grid, CellIndex c, Vec3 const& point, Vec3 const& normal, int samples) {
   Vec3 const n = normalized(present(grid, normal));
   for (int d = 0; d < grid.dimension; ++d)

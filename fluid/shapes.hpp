@@ -8,6 +8,9 @@ namespace brisance::fluid {
 Real covered_by_box(Grid const& grid, CellIndex c, Vec3 const& low, Vec3 const& high);
 /// Share of cell c inside a ball: `samples` points per direction in cells that its surface may cross.
 Real covered_by_ball(Grid const& grid, CellIndex c, Vec3 const& centre, Real radius, int samples);
+/// Share of cell c inside a cylinder along `axis`: exact along it, sampled across.
+Real covered_by_cylinder(Grid const& grid, CellIndex c, Vec3 const& centre, Real radius, Real length, int axis,
+                         int samples);
 /// Share of cell c on the side of the plane that `normal` points to: exact for normals along an axis, else sampled.
 Real covered_by_half_space(Grid const& grid, CellIndex c, Vec3 const& point, Vec3 const& normal, int samples);
 
