@@ -57,6 +57,17 @@ scene_fault(out_of_range "out_of_range.toml:5:17: fluid.euler.cfl = 1.5 is out o
 scene_fault(missing_key "missing_key.toml:2:1: fluid.cells is missing; expected" "end_time = 1\n[fluid]\nhigh = [1]\n")
 scene_fault(not_toml "not_toml.toml:1:[0-9]+: not valid TOML" "end_time = = 1\n")
 scene_fault(lonely_coupling ": .coupling. needs both .fluid. and .solid.; .solid. is missing" "${gas}[coupling]\n")
+scene_fault(gauge_outside "gauge_outside.toml:5:1: output.gauge .far. stands at x = 2 m, outside the grid, which reaches from 0 to 1 m"
+            "${gas}[[output.gauge]]\nname = \"far\"\nposition = [2]\ninterval = 1e-5\n")
+scene_fault(gauge_in_a_body "gauge_in_a_body.toml:2:1: output.gauge .deep. stands inside solid.body .block.: move it into the gas"
+            "end_time = 1\n[[output.gauge]]\nname = \"deep\"\nposition = [0.5, 0.5]\ninterval = 1e-5\n[fluid]\nhigh = [1, 1]\ncells = [16, 16]\neuler = {}
+[solid]\n[solid.material.m]\ndensity = 1000\nyoung_modulus = 1e9\n[[solid.body]]\nname = \"block\"\nmaterial = \"m\"\nlow = [0.3, 0.3]
+high = [0.6, 0.6]\n[coupling]\ncut_cells = {}\n")
+scene_fault(wrong_field "wrong_field.toml:.*output.fields.0. = .presure. is not known; .* the nearest is .pressure."
+            "${gas}[output]\nfields = [\"presure\"]\n")
+scene_fault(field_twice "output.fields lists .density. twice" "${gas}[output]\nfields = [\"density\", \"density\"]\n")
+scene_fault(overdetermined_charge "overdetermined_charge.toml:5:1: fluid.charge.0.: .mass., .energy. and .tnt_factor. overdetermine it"
+            "${gas}[[fluid.charge]]\ncentre = [0.5]\nradius = 0.1\nmass = 1\nenergy = 1e6\ntnt_factor = 1.2\n")
 brisance_expect(scene_missing_file CODE 2 LABELS unit MESSAGE "no/such.toml: the scene cannot be read: No such file"
                 ABSENT ${work}/out_missing COMMAND ${brisance} run no/such.toml --out ${work}/out_missing)
 file(WRITE ${work}/good.toml "${gas}")

@@ -1,12 +1,13 @@
 brisance_test(fluid_domain_unit
   SOURCES unit/fluid/grid/grid_test.cpp unit/fluid/grid/block_test.cpp unit/fluid/boundary/boundaries_test.cpp
           unit/fluid/flow_config_test.cpp unit/fluid/flow_test.cpp unit/fluid/time_step_test.cpp
+          unit/fluid/gauges/gauge_stencil_test.cpp unit/fluid/gauges/gauge_history_test.cpp
   LINKS brisance::fluid
   LABELS unit)
 brisance_test(fluid_ghosts SOURCES unit/fluid/ghosts_test.cpp LINKS brisance::fluid RANKS 1 2 3 4 LABELS unit)
 brisance_test(fluid_shock_sensor SOURCES unit/fluid/shock_sensor_test.cpp LINKS brisance::fluid RANKS 1 3 LABELS unit)
 brisance_test(fluid_initial_state
-  SOURCES unit/fluid/initial_state_test.cpp unit/fluid/rows_test.cpp
+  SOURCES unit/fluid/initial_state_test.cpp unit/fluid/rows_test.cpp unit/fluid/cell_fields_test.cpp
   LINKS brisance::fluid
   RANKS 1 3
   LABELS unit)
@@ -18,5 +19,9 @@ brisance_test(fluid_conservation
   LABELS verification)
 brisance_test(fluid_spherical_blast
   SOURCES verification/fluid/spherical_blast_test.cpp
+  LINKS brisance::fluid
+  LABELS verification)
+brisance_test(fluid_gauges
+  SOURCES verification/fluid/gauge_test.cpp support/riemann.cpp
   LINKS brisance::fluid
   LABELS verification)

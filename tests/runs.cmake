@@ -16,6 +16,15 @@ brisance_same_digest(bodies-leave ${PROJECT_SOURCE_DIR}/tests/support/scenes/bod
 brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 60)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
 
+# brisance_same_gauges(name SCENE steps [options of run])
+function(brisance_same_gauges name scene steps)
+  add_test(NAME same_gauges.${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/same_gauges.sh ${program} ${runs}/gauges-${name}
+                                            ${steps} ${scene} ${ARGN})
+  set_tests_properties(same_gauges.${name} PROPERTIES LABELS "parallel;restart" PROCESSORS 2 TIMEOUT 600)
+endfunction()
+brisance_same_gauges(gauges ${PROJECT_SOURCE_DIR}/tests/support/scenes/gauges.toml 160)
+brisance_same_gauges(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 40)
+
 # Faults of bodies and ranks: scene errors, nothing written.
 foreach(fault overlapping-bodies non-convex-cells)
   set(scene ${PROJECT_SOURCE_DIR}/tests/support/scenes/${fault}.toml)

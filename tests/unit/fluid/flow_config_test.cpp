@@ -58,7 +58,7 @@ density = "1000 kg/m3"
   EXPECT_EQ(config.ambient.pressure, 101325);
   EXPECT_EQ(config.inflow.y_low->velocity.y, 10);
   EXPECT_EQ(config.region.at(0).cells, "whole");
-  EXPECT_EQ(config.charge.at(0).tnt_factor, 1);
+  EXPECT_EQ(config.charge.at(0).mass, 1);
   EXPECT_EQ(read_keys<FlowConfig>(parse_toml(write_keys(config), "resolved.toml")).high, config.high);
 }
 
@@ -79,6 +79,37 @@ TEST(FlowConfig, ErrorsNameWhatIsMissing) {
   EXPECT_NE(scene_error_of("high = [1]\ncells = [20]\n[[charge]]\ncentre = [0.5]\nmass = 1").find("fluid.charge[0]"),
             std::string::npos);
   EXPECT_NE(scene_error_of("high = [1, 1]\ncells = [20, 4]\neuler = { order = 11 }").find("fluid.cells[1] = 4"),
+            std::string::npos);
+}
+
+TEST(FlowConfig, ChargesAreNeitherUnderNorOverdetermined) {
+  auto const said = [](std::string const& charge, int dimension = 3) {
+    std::string const low = dimension == 3 ? "high = [1, 1, 1]\ncells = [9, 9, 9]" : "high = [1, 1]\ncells = [9, 9]";
+    return scene_error_of(low + "\n[[charge]]\ncentre = [0.5, 0.5]\n" + charge);
+  };
+  for (char const* good :
+       {"mass = 1\nradius = 0.1", "energy = 1e6\ndensity = 9", "mass = 1\nenergy = 1e6\nradius = 0.1",
+        "energy = 1e6\ntnt_factor = 1.2\nradius = 0.1", "shape = \"box\"\nsize = [0.1, 0.2, 0.1]\nmass = 1",
+        "shape = \"cylinder\"\nradius = 0.1\nlength = 0.3\naxis = \"x\"\nenergy = 1e6",
+        "radius = 0.1\ndensity = 9\npressure = 1e7",
+        "shape = \"box\"\nsize = [0.1, 0.2, 0.1]\ndensity = 9\npressure = 1e7"})
+    EXPECT_EQ(said(good), "") << good;
+  struct Fault {
+    char const *charge, *message;
+  };
+  for (Fault const& f : {Fault{"mass = 1\nenergy = 1e6\ntnt_factor = 1\nradius = 0.1", "overdetermine"},
+                         {"mass = 1", "one of `radius` and `density`"},
+                         {"mass = 1\nradius = 0.1\ndensity = 9", "one of `radius` and `density`"},
+                         {"mass = 1\nradius = 0.1\npressure = 9", "leave `pressure` out"},
+                         {"radius = 0.1\ndensity = 9", "give either how much it is"},
+                         {"radius = 0.1\ndensity = 9\npressure = 1e6\ntnt_factor = 1.1", "give either how much it is"},
+                         {"shape = \"box\"\nmass = 1", "as `size`"},
+                         {"shape = \"box\"\nsize = [0.1, 0.2]\nmass = 1", "must be above 0"},
+                         {"shape = \"box\"\nsize = [0.1, 0.2, 1]\nmass = 1\ndensity = 9", "leave `density` out"},
+                         {"shape = \"cylinder\"\nradius = 0.1\nmass = 1", "`radius`, `length` and `axis`"},
+                         {"length = 0.1\nradius = 0.1\nmass = 1", "a ball has a `radius`"}})
+    EXPECT_NE(said(f.charge).find(f.message), std::string::npos) << f.charge << ": " << said(f.charge);
+  EXPECT_NE(said("shape = \"cylinder\"\nradius = 0.1\nlength = 0.1\nmass = 1", 2).find("three dimensions"),
             std::string::npos);
 }
 

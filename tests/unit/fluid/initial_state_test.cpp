@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fluid/charges.hpp"
 #include "fluid/shapes.hpp"
 #include "parallel/error.hpp"
 #include "tests/support/flow_case.hpp"
@@ -168,6 +169,91 @@ TEST(Charge, GivenByItsGasStateHoldsTheVolumeOfTheBall) {
   config.charge = {charge};
   Real const excess = (50662500 - 101325) / 0.4 * std::numbers::pi * 0.47 * 0.47;
   EXPECT_NEAR(filled(config).totals.energy - 101325 / 0.4 * 16, excess, 1e-12 * excess);
+}
+
+TEST(Charge, OfAnyShapeHoldsItsMassAndEnergyToRoundOff) {
+  FlowConfig config = air(3, 30, 3);
+  ChargeConfig charge;
+  charge.centre = {1.4371, 1.513, 1.5};
+  charge.energy = 7e6;
+  charge.mass = 1.9;
+  auto const empty = filled(config).totals;
+  for (std::string const shape : {"ball", "box", "cylinder"})
+    for (std::string const axis : {"x", "z"}) {
+      charge.shape = shape;
+      charge.axis = axis;
+      charge.radius = charge.length = std::nullopt;
+      charge.size = std::nullopt;
+      if (shape == "box") charge.size = Vec3{0.53, 0.21, 0.4};
+      if (shape != "box") charge.radius = 0.31;
+      if (shape == "cylinder") charge.length = 0.77;
+      config.charge = {charge};
+      Totals const t = filled(config).totals;
+      EXPECT_NEAR(t.energy - empty.energy, 7e6, 1e-11 * 7e6) << shape;
+      auto const flow = testing::make_flow(config, testing::comm());
+      ChargeReport const report = measure_charges(*flow, config, {}).at(0);
+      // The gas it replaces is gone: 1.2 kg/m3 of its volume.
+      EXPECT_NEAR(t.mass - empty.mass, 1.9 - 1.2 * 1.9 / report.density, 1e-12) << shape;
+      EXPECT_EQ(report.mass, 1.9);
+      EXPECT_EQ(report.energy, 7e6);
+      EXPECT_EQ(report.tnt_mass, 7e6 / tnt);
+      EXPECT_NEAR(report.pressure, 101325 + 0.4 * 7e6 * report.density / 1.9, 1e-9 * report.pressure);
+      Real const volume = shape == "ball"  ? 4 * std::numbers::pi / 3 * 0.31 * 0.31 * 0.31
+                          : shape == "box" ? 0.53 * 0.21 * 0.4
+                                           : std::numbers::pi * 0.31 * 0.31 * 0.77;
+      EXPECT_NEAR(report.density * volume, 1.9, 0.02) << shape;
+    }
+}
+
+TEST(Charge, ByEnergyAloneHasTheMassOfTntWithItsFactor) {
+  FlowConfig config = air(2, 30, 3);
+  ChargeConfig charge;
+  charge.centre = {1.5, 1.5, 0};
+  charge.radius = 0.5;
+  charge.energy = 2 * tnt;
+  charge.tnt_factor = 0.8;
+  config.charge = {charge};
+  auto const flow = testing::make_flow(config, testing::comm());
+  ChargeReport const report = measure_charges(*flow, config, {}).at(0);
+  EXPECT_NEAR(report.mass, 2.5, 1e-14);
+  EXPECT_EQ(report.tnt_mass, 2);
+  EXPECT_EQ(report.cells_across, 10);
+  EXPECT_EQ(warning(report), "");
+  EXPECT_NE(describe(report, 2).find("2.5 kg/m of gas with 8.368 MJ/m above the ambient, as energy 2 kg/m of TNT"),
+            std::string::npos)
+      << describe(report, 2);
+  config.charge[0].radius = 0.3;
+  EXPECT_NE(warning(measure_charges(*flow, config, {}).at(0)), "");
+}
+
+TEST(Charge, ThePublishedGasStateIsNotItsMassInTnt) {
+  // theory/fluid.md 1.3, trap T18: 99.9 kg/m of gas, 30.3 kg/m of TNT by energy.
+  FlowConfig config = air(2, 1, 1);
+  config.cells = {300, 150};
+  config.high = {12, 6, 0};
+  ChargeConfig charge;
+  charge.centre = {4, 3, 0};
+  charge.radius = 1 / std::sqrt(std::numbers::pi);
+  charge.density = 99.9;
+  charge.pressure = 50662500;
+  config.charge = {charge};
+  auto const flow = testing::make_flow(config, testing::comm());
+  ChargeReport const report = measure_charges(*flow, config, {}).at(0);
+  EXPECT_NEAR(report.mass, 99.9, 1e-11);
+  EXPECT_NEAR(report.energy, 1.2666e8 - 101325 / 0.4, 1e4);
+  EXPECT_NEAR(report.tnt_mass, 30.2, 0.05);  // 30.27 with the energy of the air in its place, 30.21 above it
+}
+
+TEST(Charge, OnTheGroundReportsTheRadiusItGrewTo) {
+  FlowConfig config = air(3, 30, 3);
+  ChargeConfig charge;
+  charge.centre = {1.5, 1.5, 0};
+  charge.mass = 100;
+  charge.density = 300;
+  config.charge = {charge};
+  auto const flow = testing::make_flow(config, testing::comm());
+  EXPECT_NEAR(measure_charges(*flow, config, {}).at(0).radius,
+              std::cbrt(2 * ball_radius(3, 1. / 3) * ball_radius(3, 1. / 3) * ball_radius(3, 1. / 3)), 0.01);
 }
 
 TEST(Totals, DoNotDependOnTheOwnersOfBlocks) {

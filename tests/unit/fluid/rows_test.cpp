@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "fluid/initial_state.hpp"
-#include "parallel/error.hpp"
 #include "tests/support/flow_case.hpp"
 #include "tests/support/test_main.hpp"
 
@@ -42,24 +41,6 @@ TEST(CellRows, NumberTheCellsOfAllBlocksOnceAndComeBackUnchanged) {
     for (Index j = 0; j < block.size()[1]; ++j)
       for (Index i = 0; i < block.size()[0]; ++i)
         ASSERT_EQ(block.load(i, j, 0), tagged(grid, {block.first()[0] + i, block.first()[1] + j, 0}));
-}
-
-TEST(CellField, GivesPrimitiveValuesOverTheBoxes) {
-  FlowConfig config = testing::unit_box(2, 30);
-  config.ambient = {2, 3, {0.5, -0.25, 0}};
-  auto const flow = testing::make_flow(config, testing::comm());
-  std::int64_t cells = 0;
-  for (auto const& box : cell_boxes(*flow)) cells += box.size[0] * box.size[1] * box.size[2];
-  CellField const velocity = cell_field(*flow, "velocity"), pressure = cell_field(*flow, "pressure");
-  EXPECT_EQ(velocity.columns, 3);
-  ASSERT_EQ(static_cast<std::int64_t>(velocity.data.size()), 3 * cells);
-  ASSERT_EQ(static_cast<std::int64_t>(pressure.data.size()), cells);
-  for (std::size_t c = 0; c < pressure.data.size(); ++c) {
-    EXPECT_NEAR(pressure.data[c], 3, 1e-14);
-    EXPECT_EQ(velocity.data[3 * c], 0.5);
-    EXPECT_EQ(velocity.data[3 * c + 1], -0.25);
-  }
-  EXPECT_THROW(cell_field(*flow, "presure"), Error);
 }
 
 }  // namespace
