@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Pictures of a run: pressure and the bodies at four times, from fields/*.h5 and solid/*.h5.
+"""Pictures of a run: a field and the bodies at four times, from fields/*.h5 and solid/*.h5.
 
-usage: picture.py DIR OUT.png [--plane y=1.6] [--window x0 x1 y0 y1]
+usage: picture.py DIR OUT.png [--field schlieren] [--plane y=1.6] [--window x0 x1 y0 y1]
 Needs python3-h5py, python3-numpy, python3-matplotlib (not needed to build or run Brisance).
 """
 import argparse
@@ -42,6 +42,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("directory")
     parser.add_argument("picture")
+    parser.add_argument("--field", default="pressure", help="name in output.fields; vectors by their length")
     parser.add_argument("--plane", help="cut a 3D run: x=, y= or z= a position in m")
     parser.add_argument("--window", nargs=4, type=float)
     parser.add_argument("--scale", type=float, default=1, help="displacement of the bodies times this")
@@ -55,7 +56,9 @@ def main():
     values = []
     for path in chosen:
         with h5py.File(path) as file:
-            p = file["pressure"][:]
+            p = file[o.field][:]
+            p = np.linalg.norm(p, axis=-1) if p.ndim == 4 else p
+            p = np.log10(np.maximum(p, 1e-300) / 1e5) if o.field == "pressure" else p
             s = file["solid_fraction"][:] if "solid_fraction" in file else np.zeros_like(p)
             time = file.attrs["time"] if "time" in file.attrs else 0.0
         index = 0
@@ -63,13 +66,14 @@ def main():
             n = p.shape[2 - cut_axis]
             index = int((position - low[cut_axis]) / (high[cut_axis] - low[cut_axis]) * n)
         values.append((np.take(p, index, 2 - cut_axis), np.take(s, index, 2 - cut_axis), float(np.ravel(time)[0])))
-    everything = np.concatenate([np.log10(v[0][v[1] < 0.5] / 1e5).ravel() for v in values])
+    everything = np.concatenate([v[0][v[1] < 0.5].ravel() for v in values])
     lo, hi = everything.min(), everything.max()
     first = sorted(glob.glob(os.path.join(o.directory, "solid", "*.h5")))[0]
     rest = polygons(first, axes)
     for panel, path, (p, s, time) in zip(panels.flat, chosen, values):
-        field = np.ma.masked_where(s > 0.999, np.log10(p / 1e5))
-        image = panel.imshow(field, origin="lower", vmin=lo, vmax=hi, cmap="inferno", interpolation="nearest",
+        field = np.ma.masked_where(s > 0.999, p)
+        image = panel.imshow(field, origin="lower", vmin=lo, vmax=hi, interpolation="nearest",
+                             cmap="gray" if o.field == "schlieren" else "inferno",
                              extent=(low[axes[0]], high[axes[0]], low[axes[1]], high[axes[1]]))
         now = polygons(path.replace("/fields/", "/solid/"), axes)
         moved = [a + o.scale * (b - a) for a, b in zip(rest, now)]
@@ -79,7 +83,7 @@ def main():
             panel.set_ylim(o.window[2:])
         panel.set_title(f"{1e3 * time:.2f} ms", fontsize=9)
         panel.tick_params(labelsize=7)
-    figure.colorbar(image, ax=panels, label="log10(pressure / bar)", shrink=0.8)
+    figure.colorbar(image, ax=panels, label="log10(pressure / bar)" if o.field == "pressure" else o.field, shrink=0.8)
     figure.savefig(o.picture, dpi=90)
 
 

@@ -32,7 +32,7 @@ brisance_expect(help CODE 0 LABELS unit MESSAGE "run.*restart.*check.*bench.*par
 brisance_expect(version CODE 0 LABELS unit MESSAGE "brisance ${PROJECT_VERSION}" COMMAND ${brisance} --version)
 
 brisance_expect(params_all CODE 0 LABELS unit COMMAND ${brisance} params
-                MESSAGE "end_time.*output.interval.*fluid.euler.order.*solid.material.NAME.density.*solid.body\\[\\].shape.*coupling.cut_cells.small_cell")
+                MESSAGE "end_time.*output.interval.*output.gauge.*position.*fluid.euler.order.*solid.material.NAME.density.*solid.body\\[\\].shape.*coupling.cut_cells.small_cell")
 brisance_expect(params_one CODE 0 LABELS unit COMMAND ${brisance} params fluid.euler.order
                 MESSAGE "^fluid.euler.order +type: an integer, one of 1, 3, 5, 7, 9, 11; unit: -; default: 5")
 brisance_expect(params_unknown CODE 2 LABELS unit MESSAGE "no key fluid.eular; the nearest known key is fluid.euler"

@@ -8,6 +8,7 @@ brisance_test(fluid_ghosts SOURCES unit/fluid/ghosts_test.cpp LINKS brisance::fl
 brisance_test(fluid_shock_sensor SOURCES unit/fluid/shock_sensor_test.cpp LINKS brisance::fluid RANKS 1 3 LABELS unit)
 brisance_test(fluid_initial_state
   SOURCES unit/fluid/initial_state_test.cpp unit/fluid/rows_test.cpp unit/fluid/cell_fields_test.cpp
+          unit/fluid/gauges/gauges_test.cpp
   LINKS brisance::fluid
   RANKS 1 3
   LABELS unit)

@@ -24,6 +24,8 @@ function(brisance_same_gauges name scene steps)
 endfunction()
 brisance_same_gauges(gauges ${PROJECT_SOURCE_DIR}/tests/support/scenes/gauges.toml 160)
 brisance_same_gauges(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 40)
+brisance_same_gauges(explosion-box-3d ${scenes}/explosion-box-3d.toml 12 --set fluid.block=32 --set output.interval=1e-5
+                     --set "output.fields=[\"schlieren\", \"vorticity\"]" --set output.gauge.0.interval=1e-6 --set output.gauge.1.interval=1e-6)
 
 # Faults of bodies and ranks: scene errors, nothing written.
 foreach(fault overlapping-bodies non-convex-cells)
@@ -38,7 +40,7 @@ brisance_expect(scene_more_ranks_than_blocks CODE 2 RANKS 3 LABELS parallel ABSE
                 COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/ranks --set fluid.block=300)
 brisance_expect(check_explosion-cylinder CODE 0 LABELS unit MESSAGE "coupling.cut_cells +on.*180000 cells.*50 particles, 50 links"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --ranks 4)
-brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity +off: .*416 particles"
+brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity +off: .*output.gauges +on.*416 particles.*charges +fluid.charge.0.: 1 kg of gas with 4.184 MJ above"
                 COMMAND ${program} check ${scenes}/explosion-box-3d.toml --ranks 2)
 
 # Truncated checkpoints and a full disk.

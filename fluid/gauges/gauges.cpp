@@ -119,7 +119,8 @@ std::vector<std::string> Gauges::open(std::string const& directory, Clock const&
   notes_.clear();
   accepted_ = 0;
   parallel::Comm& comm = flow_.comm();
-  if (comm.rank() == 0) std::filesystem::create_directories(directory + "/gauges");
+  std::error_code failed;  // then writing the files fails, on all ranks
+  if (comm.rank() == 0) std::filesystem::create_directories(directory + "/gauges", failed);
   std::vector<std::string> remarks;
   for (std::size_t g = 0; g < configs_.size(); ++g) {
     std::string text;
