@@ -13,6 +13,7 @@ namespace {
 struct Spy : BlockSweeper {
   Spy(Flow& flow_, Index mine_) : flow(flow_), mine(mine_) {}
   bool handles(Index block) const override { return block == mine; }
+  bool is_fluid(Block const&, Index, Index, Index) const override { return true; }
   void prepare(int direction, Real) override {
     ++prepared;
     // A state set here, in the block's last cells, must reach the ghosts of its neighbours.
