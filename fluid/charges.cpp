@@ -178,16 +178,18 @@ Placed place(Flow& flow, FlowConfig const& config, std::size_t number, FluidVolu
   Real const filled = balloon.fluid_volume();
   require(filled > 0, charge.at,
           name + ": no fluid at its place, so its energy has nowhere to go. Move `centre` into the fluid.");
+  // Above the gas it replaces, not above itself at the ambient pressure: for an ideal gas the same, but detonation
+  // products that dense have no state at that pressure.
+  Real const ambient = gas.energy_at_rest(config.ambient.density, config.ambient.pressure);
   Real density = 0, content = 0;
   if (by_amount) {
     density = mass / filled;
-    content = gas.energy_at_rest(density, config.ambient.pressure) + energy / filled;
+    content = ambient + energy / filled;
   } else {
     // The rounding of the rim to sample points is taken out of mass and energy; what lies outside the domain or in a
     // wall is lost.
     Real const sampled = sampled_volume(grid, form);
     Real const scale = sampled > 0 ? form.volume(grid.dimension) / sampled : 1;
-    Real const ambient = gas.energy_at_rest(config.ambient.density, config.ambient.pressure);
     Real const excess = (gas.energy_at_rest(*charge.density, *charge.pressure) - ambient) * scale;
     density = *charge.density * scale;
     content = ambient + excess;

@@ -244,6 +244,21 @@ TEST(Charge, ThePublishedGasStateIsNotItsMassInTnt) {
   EXPECT_NEAR(report.tnt_mass, 30.2, 0.05);  // 30.27 with the energy of the air in its place, 30.21 above it
 }
 
+TEST(Charge, OfDetonationProductsAtTheDensityOfTheExplosiveHasThePressureOfItsEnergy) {
+  // theory/fluid.md 1.3: rho = rho_0 and rho e = E_0 give 8.384 GPa.
+  FlowConfig config = air(3, 20, 1);
+  config.gas.law = "jwl";
+  ChargeConfig charge;
+  charge.centre = {0.5, 0.5, 0.5};
+  charge.mass = 163;
+  charge.energy = 0.7e9;
+  charge.shape = "box";
+  charge.size = Vec3{0.5, 0.5, 0.4};
+  config.charge = {charge};
+  auto const flow = testing::make_flow(config, testing::comm());
+  EXPECT_NEAR(measure_charges(*flow, config, {}).at(0).pressure, 8.384e9, 2e6);
+}
+
 TEST(Charge, OnTheGroundReportsTheRadiusItGrewTo) {
   FlowConfig config = air(3, 30, 3);
   ChargeConfig charge;
