@@ -64,7 +64,10 @@ void OutputConfig::keys(Keys<OutputConfig>& k) {
   k("history_interval", &OutputConfig::history_interval, "s",
     "time between two rows of history.csv; not given: a row per step")
       .above(0);
-  k("fields", &OutputConfig::fields, "", "fields of the fluid to write").words = fluid::cell_field_names();
+  k("fields", &OutputConfig::fields, "",
+    "fields of the fluid to write; schlieren: exp(-10 |grad rho| / max), 1 in uniform gas; vorticity: 2D its z "
+    "component")
+      .words = fluid::cell_field_names();
   k("gauge", &OutputConfig::gauge, "", "points where the gas is watched; each writes gauges/NAME.csv");
 }
 
