@@ -41,7 +41,7 @@ struct EulerConfig {
   int order = 5;
   double cfl = 0.8;
   bool hybrid = true;
-  double shear_dissipation = 0.3;
+  double shear_dissipation = 1.2;
   Location at;
   static void keys(Keys<EulerConfig>& k) {
     k("order", &EulerConfig::order, "", "order of the OSMP flux").one_of({1, 3, 5, 7, 9, 11});
@@ -57,7 +57,7 @@ struct EulerConfig {
       "keeps "
       "strong shocks along the grid whole; 0: off")
         .at_least(0)
-        .at_most(1);
+        .at_most(2);
   }
 };
 

@@ -162,7 +162,7 @@ class Pencil {
     Jump<V>& window = jumps_[reach + middle];
     form_face<Order>(left, right, previous, face, window, k);
     if (data.marks) [[unlikely]]
-      face.cure = cure_speed(data, c, k.shear * max(left.sound, right.sound));
+      face.cure = cure_speed(data, c, min(k.shear * max(left.sound, right.sound), k.inv_sigma));
     if (any_vacuum_left_ || any_vacuum_right_) [[unlikely]] {
       Cell<V, Curve> const l = left, r = right;
       SweepConstants<V, Curve> const constants = k;

@@ -189,7 +189,7 @@ PlainSweep plain_sweep(PlainPencil const& pencil, int order, double sigma, Gas c
     State d;
     for (std::size_t k = 0; k < 5; ++k) d[k] = field(face, i, k, own_order, sigma, gas.kappa(), options.hybrid);
     if (!pencil.marked.empty() && (pencil.marked[i - 1] || pencil.marked[i])) {
-      double const least = options.shear_dissipation * std::max(cell[i - 1].c, cell[i].c);
+      double const least = std::min(options.shear_dissipation * std::max(cell[i - 1].c, cell[i].c), 1 / sigma);
       for (std::size_t k = 1; k < 4; ++k)
         d[k] -= 0.5 * std::max(0.0, least - std::abs(face[i].u)) * face[i].strength[k];
     }

@@ -122,7 +122,7 @@ std::vector<Case> all_cases() {
   for (int order : orders)
     for (Data data : {Data::smooth, Data::strong, Data::vacuum})
       for (Substance substance : {Substance::ideal, Substance::stiffened, Substance::jwl})
-        for (SweepOptions const& options : {SweepOptions{}, {true, 0}, {false, 0.3}, {true, 0.3}})
+        for (SweepOptions const& options : {SweepOptions{}, {true, 0}, {false, 0.3}, {true, 1.2}})
           list.push_back({order, data, substance, options});
   return list;
 }
