@@ -15,7 +15,7 @@ void Euler::join(Plan& plan) {
       if (report.health != 0 && report_.health == 0) report_.where = report.where;
       report_.health |= report.health;
       if (sweep == 0)
-        for (Block const& block : flow_.blocks())
+        for (Block const& block : std::as_const(flow_).blocks())
           cell_updates_ += std::int64_t{block.size()[0]} * block.size()[1] * block.size()[2];
     });
   plan.limit("fluid.acoustic", [this](Clock const& clock) { return acoustic_limit(clock); });

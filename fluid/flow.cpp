@@ -24,17 +24,43 @@ Flow::Flow(FlowConfig const& config, Grid grid, std::vector<int> owner, parallel
       blocks_(owned_blocks(grid_, owner_, comm.rank(), ghost_depth(order_))),
       boundaries_(config, gas_),
       ghosts_(grid_, owner_, blocks_, boundaries_, comm),
-      options_(config.options()) {
+      options_(config.options()),
+      sleep_(config.sleep),
+      uniform_(blocks_.size()) {
   if (grid_.dimension > 1 && options_.shear_dissipation > 0)
     sensor_ = std::make_unique<ShockSensor>(grid_, owner_, blocks_, comm);
   GasState const& ambient = config.ambient;
   for (Block& block : blocks_) block.fill(gas_.conserved(ambient.density, ambient.velocity, ambient.pressure));
 }
 
-Block* Flow::find(Index block_id) {
+std::vector<Block>& Flow::blocks() {
+  uniform_.all_changed();
+  return blocks_;
+}
+
+std::size_t Flow::position(Index block_id) const {
   auto const at = std::lower_bound(blocks_.begin(), blocks_.end(), block_id,
                                    [](Block const& block, Index id) { return block.id() < id; });
-  return at != blocks_.end() && at->id() == block_id ? &*at : nullptr;
+  return static_cast<std::size_t>((at != blocks_.end() && at->id() == block_id ? at : blocks_.end()) - blocks_.begin());
+}
+
+Block* Flow::find(Index block_id) {
+  std::size_t const b = position(block_id);
+  if (b == blocks_.size()) return nullptr;
+  uniform_.changed(b);
+  return &blocks_[b];
+}
+
+Block const* Flow::find(Index block_id) const {
+  std::size_t const b = position(block_id);
+  return b == blocks_.size() ? nullptr : &blocks_[b];
+}
+
+void Flow::look_at_blocks() {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    bool const may_sleep = sleep_ && !(sweeper_ && sweeper_->handles(blocks_[b].id()));
+    may_sleep ? uniform_.look(b, blocks_[b]) : uniform_.changed(b);
+  }
 }
 
 void Flow::begin_step() {
@@ -45,23 +71,37 @@ void Flow::begin_step() {
 }
 
 void Flow::save() {
+  look_at_blocks();
   saved_.resize(blocks_.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    State const* const u = uniform_.state(b);
+    saved_[b].uniform = u ? std::optional(*u) : std::nullopt;
+    if (u) continue;
     std::span<Real const> const all = std::as_const(blocks_[b]).storage();
-    saved_[b].assign(all.begin(), all.end());
+    saved_[b].cells.assign(all.begin(), all.end());
   }
   saved_ledger_ = ledger_;
 }
 
 void Flow::restore() {
-  for (std::size_t b = 0; b < saved_.size(); ++b) std::ranges::copy(saved_[b], blocks_[b].storage().begin());
+  for (std::size_t b = 0; b < saved_.size(); ++b) {
+    SavedBlock const& saved = saved_[b];
+    if (!saved.uniform) {
+      std::ranges::copy(saved.cells, blocks_[b].storage().begin());
+    } else {
+      State const* const now = uniform_.state(b);
+      if (now && same_bits(*now, *saved.uniform)) continue;  // it slept
+      blocks_[b].fill(*saved.uniform);
+    }
+    uniform_.changed(b);
+  }
   ledger_ = saved_ledger_;
 }
 
 std::size_t Flow::bytes() const {
   std::size_t n = ghosts_.bytes() + (sensor_ ? sensor_->bytes() : 0);
   for (Block const& block : blocks_) n += block.bytes();
-  for (std::vector<Real> const& copy : saved_) n += copy.capacity() * sizeof(Real);
+  for (SavedBlock const& copy : saved_) n += copy.cells.capacity() * sizeof(Real);
   return n;
 }
 

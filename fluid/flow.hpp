@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "fluid/ghosts.hpp"
 #include "fluid/grid/block.hpp"
 #include "fluid/shock_sensor.hpp"
+#include "fluid/sleep.hpp"
 #include "parallel/comm.hpp"
 
 namespace brisance::fluid {
@@ -43,9 +45,12 @@ class Flow {
   int order() const { return order_; }
   parallel::Comm& comm() const { return comm_; }
   /// Owned blocks, ascending ids.
-  std::vector<Block>& blocks() { return blocks_; }
+  /// The first of each two forms lets the caller write into the cells: until the next sweep, save or restore, which
+  /// may take a block for asleep that was not asked for anew.
+  std::vector<Block>& blocks();
   std::vector<Block> const& blocks() const { return blocks_; }
   Block* find(Index block_id);  ///< null when another rank owns it
+  Block const* find(Index block_id) const;
   int owner(Index block_id) const { return owner_[static_cast<std::size_t>(block_id)]; }
   std::vector<int> const& owners() const { return owner_; }
   Boundaries const& boundaries() const { return boundaries_; }
@@ -66,8 +71,19 @@ class Flow {
   }
   SweepOptions const& options() const { return options_; }
 
+  /// From now on every block is swept: for effects that act on uniform gas too, such as body forces.
+  void keep_awake() { sleep_ = false; }
+  /// What sleep saved on this rank since the start of the program.
+  struct Saved {
+    std::int64_t block_sweeps = 0, block_sweeps_skipped = 0;
+    std::int64_t cell_sweeps = 0, cell_sweeps_skipped = 0;
+  };
+  Saved const& saved_by_sleep() const { return saved_by_sleep_; }
+
   /// Collective. Cell means at t -> after one sweep along `direction`, in place, ghosts included. The report of this
   /// rank: health bits or-ed, `where` = global index of the first bad cell (lowest id), ends of blocks left empty.
+  /// A block that this sweep would leave as it is, bit by bit, sleeps (theory/fluid.md 7): same cells, report and
+  /// ledger.
   SweepReport sweep(int direction, Real dt);
 
   /// Keeps the cells and the ledger for restore(): the state to which a rejected pair of steps returns.
@@ -77,7 +93,10 @@ class Flow {
   std::size_t bytes() const;  ///< memory of this rank: cells, saved copy, messages
 
  private:
-  void sweep_block(Block& block, int direction, Real dt, SweepReport& total);
+  void sweep_block(std::size_t position, int direction, Real dt, SweepReport& total);
+  bool sleeps(std::size_t position, int direction, Real dt, SweepReport& total);
+  void look_at_blocks();
+  std::size_t position(Index block_id) const;  ///< in blocks_, their number when another rank owns it
 
   Grid grid_;
   Gas gas_;
@@ -88,10 +107,18 @@ class Flow {
   Boundaries boundaries_;
   Ghosts ghosts_;
   BoundaryLedger ledger_, saved_ledger_;
-  std::vector<std::vector<Real>> saved_;
+  struct SavedBlock {
+    std::vector<Real> cells;
+    std::optional<State> uniform;  ///< then `cells` mean nothing
+  };
+  std::vector<SavedBlock> saved_;
   BlockSweeper* sweeper_ = nullptr;
   SweepOptions options_;
   std::unique_ptr<ShockSensor> sensor_;
+  bool sleep_;
+  UniformBlocks uniform_;
+  UniformSweeps uniform_sweeps_;
+  Saved saved_by_sleep_;
 };
 
 /// The cells of a block as a box for sweep_box.

@@ -145,6 +145,8 @@ void FlowConfig::keys(Keys<FlowConfig>& k) {
       .at_least(1);
   k("block", &FlowConfig::block, "", "largest side of a block in cells; not given: 48 in 3D, 64 in 2D and 1D")
       .at_least(1);
+  k("sleep", &FlowConfig::sleep, "",
+    "blocks whose cells and ends hold one and the same state are not swept; the bits are the same without");
   k("gas", &FlowConfig::gas, "", "the gas");
   k("ambient", &FlowConfig::ambient, "", "initial state outside all regions and charges");
   k("euler", &FlowConfig::euler, "", "motion of the gas by the OSMP scheme");

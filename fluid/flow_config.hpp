@@ -107,6 +107,7 @@ struct FlowConfig {
   Vec3 low{}, high{};
   std::vector<int> cells;
   std::optional<int> block;
+  bool sleep = true;
   GasConfig gas;
   GasState ambient;
   std::optional<EulerConfig> euler;

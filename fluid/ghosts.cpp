@@ -1,6 +1,7 @@
 #include "fluid/ghosts.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 
 namespace brisance::fluid {
@@ -40,6 +41,27 @@ void copy(Block const& from, CellRange const& source, Block& to, CellRange const
   });
 }
 
+void fill(Block& block, CellRange const& range, State const& u) {
+  for_rows(range, [&](int q, Index i, Index j, Index k) {
+    std::fill_n(block.component(q) + block.at(i, j, k), range.size[0], u[static_cast<std::size_t>(q)]);
+  });
+}
+
+bool holds_only(Block const& block, CellRange const& range, State const& u) {
+  for (std::size_t q = 0; q < 5; ++q) {
+    auto const wanted = std::bit_cast<std::uint64_t>(u[q]);
+    for (Index k = 0; k < range.size[2]; ++k)
+      for (Index j = 0; j < range.size[1]; ++j) {
+        Real const* const row =
+            block.component(static_cast<int>(q)) + block.at(range.first[0], range.first[1] + j, range.first[2] + k);
+        std::uint64_t difference = 0;
+        for (Index i = 0; i < range.size[0]; ++i) difference |= std::bit_cast<std::uint64_t>(row[i]) ^ wanted;
+        if (difference != 0) return false;
+      }
+  }
+  return true;
+}
+
 Real* pack(Block const& block, CellRange const& range, Real* out) {
   for_rows(range, [&](int q, Index i, Index j, Index k) {
     out = std::copy_n(block.component(q) + block.at(i, j, k), range.size[0], out);
@@ -59,7 +81,7 @@ Real const* unpack(Block& block, CellRange const& range, Real const* in) {
 
 Ghosts::Ghosts(Grid const& grid, std::vector<int> const& owner, std::vector<Block>& blocks,
                Boundaries const& boundaries, parallel::Comm& comm)
-    : blocks_(blocks), boundaries_(boundaries), comm_(comm) {
+    : blocks_(blocks), boundaries_(boundaries), comm_(comm), ends_(blocks.size()) {
   for (int d = 0; d < grid.dimension; ++d) build(grid, owner, d);
 }
 
@@ -98,7 +120,7 @@ void Ghosts::build(Grid const& grid, std::vector<int> const& owner, int directio
   for (std::size_t p = 0; p < blocks_.size(); ++p) (waits[p] ? exchange.waiting : exchange.ready).push_back(p);
   auto const doubles = [&](std::vector<Slab> const& slabs) {
     std::size_t n = 0;
-    for (Slab const& s : slabs) n += 5 * ghost_slab(blocks_[s.block], direction, s.side).cells();
+    for (Slab const& s : slabs) n += 1 + 5 * ghost_slab(blocks_[s.block], direction, s.side).cells();
     return n;
   };
   for (Partner& p : exchange.partners) {
@@ -109,18 +131,61 @@ void Ghosts::build(Grid const& grid, std::vector<int> const& owner, int directio
   }
 }
 
-void Ghosts::start(int direction) {
+void Ghosts::set_end(Slab const& slab, int direction, State const& state) {
+  if (sleepy(slab.block))
+    ends_[slab.block][static_cast<std::size_t>(slab.side)] = {true, false, state};
+  else
+    fill(blocks_[slab.block], ghost_slab(blocks_[slab.block], direction, slab.side), state);
+}
+
+/// The ghosts of `slab` are filled: does it matter to a uniform block that they hold one state?
+void Ghosts::look_at_end(Slab const& slab, int direction) {
+  if (!sleepy(slab.block)) return;
+  Block const& block = blocks_[slab.block];
+  CellRange const ghosts = ghost_slab(block, direction, slab.side);
+  State const first = block.load(ghosts.first[0], ghosts.first[1], ghosts.first[2]);
+  ends_[slab.block][static_cast<std::size_t>(slab.side)] = {holds_only(block, ghosts, first), true, first};
+}
+
+void Ghosts::complete(std::size_t block, int direction) {
+  if (!sleepy(block)) return;
+  for (int side = 0; side < 2; ++side) {
+    End& end = ends_[block][static_cast<std::size_t>(side)];
+    if (!end.filled) fill(blocks_[block], ghost_slab(blocks_[block], direction, side), end.state);
+    end.filled = true;
+  }
+}
+
+void Ghosts::start(int direction, UniformBlocks const* uniform) {
   Exchange& exchange = exchanges_[static_cast<std::size_t>(direction)];
-  for (Partner& p : exchange.partners) {
+  uniform_ = uniform;
+  for (std::size_t m = 0; m < exchange.partners.size(); ++m) {
+    Partner& p = exchange.partners[m];
     Real* out = p.out.data();
-    for (Slab const& s : p.sends) out = pack(blocks_[s.block], inner_slab(blocks_[s.block], direction, s.side), out);
+    for (Slab const& s : p.sends) {
+      *out++ = sleepy(s.block) ? 1 : 0;
+      out = sleepy(s.block) ? std::ranges::copy(*uniform_->state(s.block), out).out
+                            : pack(blocks_[s.block], inner_slab(blocks_[s.block], direction, s.side), out);
+    }
+    std::span<Real const> const message(p.out.data(), out);
+    // Whole where the transport cuts messages into pieces, whose number both ends must agree on.
+    bool const whole = p.out.size() * sizeof(Real) > parallel::Comm::longest_variable;
+    exchange.sends[m].data = std::as_bytes(whole ? std::span<Real const>(p.out) : message);
   }
   if (!exchange.sends.empty()) pending_ = comm_.start(exchange.sends, exchange.receives, direction);
   for (Copy const& c : exchange.copies) {
     Block const& from = blocks_[c.from];
+    if (sleepy(c.from)) {
+      set_end({c.to, c.side}, direction, *uniform_->state(c.from));
+      continue;
+    }
     copy(from, inner_slab(from, direction, 1 - c.side), blocks_[c.to], ghost_slab(blocks_[c.to], direction, c.side));
+    look_at_end({c.to, c.side}, direction);
   }
-  for (Slab const& s : exchange.domain) boundaries_.fill(blocks_[s.block], direction, s.side);
+  for (Slab const& s : exchange.domain) {
+    boundaries_.fill(blocks_[s.block], direction, s.side);
+    look_at_end(s, direction);
+  }
 }
 
 void Ghosts::finish(int direction) {
@@ -129,7 +194,18 @@ void Ghosts::finish(int direction) {
   pending_.reset();
   for (Partner& p : exchanges_[static_cast<std::size_t>(direction)].partners) {
     Real const* in = p.in.data();
-    for (Slab const& s : p.receives) in = unpack(blocks_[s.block], ghost_slab(blocks_[s.block], direction, s.side), in);
+    for (Slab const& s : p.receives) {
+      bool const one_state = *in++ != 0;
+      if (one_state) {
+        State state;
+        std::copy_n(in, 5, state.begin());
+        in += 5;
+        set_end(s, direction, state);
+      } else {
+        in = unpack(blocks_[s.block], ghost_slab(blocks_[s.block], direction, s.side), in);
+        look_at_end(s, direction);
+      }
+    }
   }
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fluid/boundary/boundaries.hpp"
 #include "fluid/grid/block.hpp"
+#include "fluid/sleep.hpp"
 #include "parallel/comm.hpp"
 
 namespace brisance::fluid {
@@ -20,9 +22,19 @@ class Ghosts {
 
   /// Sends what other ranks need and fills the ghosts that depend on this rank alone. Afterwards the cells of `ready`
   /// blocks may be changed: nothing reads them any more.
-  void start(int direction);
+  /// With `uniform` (all blocks looked at; it must not change before finish()), uniform blocks are neither copied from
+  /// cell by cell nor sent, and the ghosts of a uniform block may be left as they were: see end() and complete().
+  void start(int direction, UniformBlocks const* uniform = nullptr);
   /// Waits for the messages of start() and fills the other ghosts.
   void finish(int direction);
+
+  /// The state that all ghosts of a uniform block hold, or will hold after complete(), at `side`; null: they differ.
+  State const* end(std::size_t block, int side) const {
+    End const& e = ends_[block][static_cast<std::size_t>(side)];
+    return e.uniform ? &e.state : nullptr;
+  }
+  /// Fills the ghosts that were left out at the ends of a uniform block.
+  void complete(std::size_t block, int direction);
 
   /// Positions in `blocks` of those complete after start(), and of those that wait for finish().
   std::vector<std::size_t> const& ready(int direction) const { return exchange(direction).ready; }
@@ -38,10 +50,18 @@ class Ghosts {
     std::size_t block;
     int side;
   };
+  /// A message is its slabs in turn: one number that tells whether the slab is uniform, then its one state or all of
+  /// its cells. Buffers have room for all cells.
   struct Partner {
     int rank;
     std::vector<Slab> sends, receives;
     std::vector<Real> out, in;
+  };
+  /// Ghosts at one side of a uniform block.
+  struct End {
+    bool uniform = false;
+    bool filled = true;  ///< false: the ghosts do not hold `state` yet
+    State state{};
   };
   struct Exchange {
     std::vector<Copy> copies;
@@ -54,12 +74,17 @@ class Ghosts {
   Exchange const& exchange(int direction) const { return exchanges_[static_cast<std::size_t>(direction)]; }
   void build(Grid const& grid, std::vector<int> const& owner, int direction);
   Partner& partner(Exchange& exchange, int rank);
+  void set_end(Slab const& slab, int direction, State const& state);
+  void look_at_end(Slab const& slab, int direction);
+  bool sleepy(std::size_t block) const { return uniform_ && uniform_->state(block); }
 
   std::vector<Block>& blocks_;
   Boundaries const& boundaries_;
   parallel::Comm& comm_;
   std::array<Exchange, 3> exchanges_;
   std::unique_ptr<parallel::Comm::Pending> pending_;
+  std::vector<std::array<End, 2>> ends_;
+  UniformBlocks const* uniform_ = nullptr;  // of the exchange under way
 };
 
 }  // namespace brisance::fluid

@@ -45,8 +45,10 @@ class Comm {
   /// Returns the received ones sorted by source rank; several from one source keep their order.
   virtual std::vector<Message> deliver(std::vector<Message> outgoing) = 0;
 
-  /// Non-blocking exchange with known partners and sizes: buffers must outlive `finish`. One message per partner and
-  /// tag.
+  /// Non-blocking exchange with known partners: buffers must outlive `finish`. One message per partner and tag. A
+  /// receive that is at most `longest_variable` bytes long takes shorter messages too, which must tell their length
+  /// themselves; a longer one has the length of its message.
+  static constexpr std::size_t longest_variable = std::size_t{1} << 30;
   struct Send {
     int rank;
     std::span<std::byte const> data;

@@ -13,7 +13,7 @@ namespace brisance::parallel {
 namespace {
 
 /// MPI counts are ints: longer messages travel in pieces of this size. A whole piece announces another one.
-constexpr std::size_t piece_size = std::size_t{1} << 30;
+constexpr std::size_t piece_size = Comm::longest_variable;
 constexpr int mail_tag = 1, gather_tag = 2;
 
 void check(int code, char const* call) {

@@ -2,6 +2,7 @@ brisance_test(fluid_domain_unit
   SOURCES unit/fluid/grid/grid_test.cpp unit/fluid/grid/block_test.cpp unit/fluid/boundary/boundaries_test.cpp
           unit/fluid/flow_config_test.cpp unit/fluid/flow_test.cpp unit/fluid/time_step_test.cpp
           unit/fluid/gauges/gauge_stencil_test.cpp unit/fluid/gauges/gauge_history_test.cpp
+          unit/fluid/sleep_test.cpp
   LINKS brisance::fluid
   LABELS unit)
 brisance_test(fluid_ghosts SOURCES unit/fluid/ghosts_test.cpp LINKS brisance::fluid RANKS 1 2 3 4 LABELS unit)
@@ -13,6 +14,7 @@ brisance_test(fluid_initial_state
   RANKS 1 3
   LABELS unit)
 brisance_test(fluid_blast_bits SOURCES parallel/fluid/blast_test.cpp LINKS brisance::fluid RANKS 1 2 3 4 LABELS parallel)
+brisance_test(fluid_sleep SOURCES parallel/fluid/sleep_test.cpp LINKS brisance::fluid RANKS 1 2 3 4 LABELS parallel)
 brisance_test(fluid_vortex SOURCES verification/fluid/vortex_test.cpp LINKS brisance::fluid LABELS verification)
 brisance_test(fluid_conservation
   SOURCES verification/fluid/conservation_test.cpp

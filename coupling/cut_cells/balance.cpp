@@ -21,7 +21,7 @@ void CutCells::transfers() {
   transfers_.clear();
   if (!moved_) return;
   std::vector<CellBox> near;
-  for (Block const& block : flow_.blocks()) near.push_back(grown(grid, box_of(block), 1));
+  for (Block const& block : std::as_const(flow_).blocks()) near.push_back(grown(grid, box_of(block), 1));
   std::vector<GlobalId> wanted;
   for (CutCell const& cut : next_.geometry.cells) {
     if (!grid.inside(cut.cell)) continue;

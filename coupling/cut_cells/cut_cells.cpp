@@ -192,7 +192,7 @@ void CutCells::load_solid() {
 void CutCells::mix() {
   fluid::Grid const& grid = flow_.grid();
   std::vector<CellBox> near;
-  for (Block const& block : flow_.blocks()) near.push_back(grown(grid, box_of(block), mixing_halo));
+  for (Block const& block : std::as_const(flow_).blocks()) near.push_back(grown(grid, box_of(block), mixing_halo));
   auto const within = [&](CellIndex c) {
     return std::any_of(near.begin(), near.end(), [&](CellBox const& b) { return b.holds(c); });
   };
@@ -229,7 +229,7 @@ void CutCells::mix() {
       cell.amount = contents_[next_content].amount;
       cell.rewritten = true;
     } else if (cell.mine && cell.volume > covered_fraction * full) {
-      Block const& block = *flow_.find(grid.block_of(cell.cell));
+      Block const& block = *std::as_const(flow_).find(grid.block_of(cell.cell));
       CellIndex const first = block.first();
       cell.amount = block.load(cell.cell[0] - first[0], cell.cell[1] - first[1], cell.cell[2] - first[2]);
       for (Real& x : cell.amount) x *= cell.volume;

@@ -114,7 +114,7 @@ void WallSweeper::rebuild(WallRecord const& record) {
   record_ = &record;
   fluid::Grid const& grid = flow_.grid();
   std::vector<GlobalId> wanted;
-  for (Block& block : flow_.blocks()) {
+  for (Block const& block : std::as_const(flow_).blocks()) {
     CellBox const own = box_of(block);
     // Two cells beyond the ghosts: what is cut after the next step has its fluxes kept too.
     if (!record.touches(grown(grid, own, block.ghost()[0] + 2))) {

@@ -10,7 +10,7 @@ StateGather::Local StateGather::locate(GlobalId cell) const {
   GlobalId const nx = grid.cells[0], ny = grid.cells[1];
   fluid::CellIndex const c{static_cast<Index>(cell % nx), static_cast<Index>(cell / nx % ny),
                            static_cast<Index>(cell / (nx * ny))};
-  fluid::Block* const block = flow_->find(grid.block_of(c));
+  fluid::Block const* const block = std::as_const(*flow_).find(grid.block_of(c));
   if (!block) return {nullptr, 0, 0, 0};
   fluid::CellIndex const first = block->first();
   return {block, c[0] - first[0], c[1] - first[1], c[2] - first[2]};
