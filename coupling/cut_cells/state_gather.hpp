@@ -23,7 +23,7 @@ class StateGather {
 
  private:
   struct Local {
-    fluid::Block* block;
+    fluid::Block const* block;
     Index i, j, k;
   };
   Local locate(GlobalId cell) const;
