@@ -12,6 +12,7 @@
 #include "core/solid/bench_links.hpp"
 #include "coupling/geometry/bench.hpp"
 #include "drivers/commands.hpp"
+#include "fluid/bench_steps.hpp"
 #include "fluid/flux/bench_sweep.hpp"
 
 namespace brisance::drivers {
@@ -39,13 +40,22 @@ Row link_row(std::string const& name, Index side, fluid::MachineRoofs const& roo
   return {name, rate.items_per_s, rate.bytes_per_item, rate.flops_per_item, side == 10 ? flops : max(flops, bytes)};
 }
 
-std::vector<Bench> all_benches() {
+std::vector<Bench> all_benches(parallel::Comm& comm) {
   std::vector<Bench> benches = {{"stream.triad", fluid::bench_triad},
                                 {"arithmetic.multiply_add", fluid::bench_multiply_add}};
-  for (int dimension = 1; dimension <= 3; ++dimension)
-    for (int order = 1; order <= 11; order += 2)
-      benches.push_back({fmt::format("fluid.{}d.order{}", dimension, order),
-                         [=](auto const& roofs) { return fluid::bench_sweep(order, dimension, roofs); }});
+  for (int order = 1; order <= 11; order += 2)
+    benches.push_back({fmt::format("fluid.kernel.3d.order{}", order),
+                       [=](auto const& roofs) { return fluid::bench_sweep(order, 3, roofs); }});
+  auto const steps = [&](std::string const& name, int order, std::vector<int> const& cells) {
+    benches.push_back(
+        {name, [=, &comm](auto const& roofs) { return fluid::bench_steps(name, order, cells, comm, roofs); }});
+  };
+  for (int order = 1; order <= 11; order += 2) {
+    steps(fmt::format("fluid.3d.order{}", order), order, {96, 96, 96});
+    steps(fmt::format("fluid.2d.order{}", order), order, {941, 940});
+    steps(fmt::format("fluid.1d.order{}", order), order, {96 * 96 * 96});
+    steps(fmt::format("fluid.1d.order{}.short", order), order, {10000});
+  }
   benches.push_back({"solid.links.cache", [](auto const& roofs) { return link_row("solid.links.cache", 10, roofs); }});
   benches.push_back(
       {"solid.links.memory", [](auto const& roofs) { return link_row("solid.links.memory", 96, roofs); }});
@@ -58,8 +68,8 @@ std::vector<Bench> all_benches() {
 }
 
 /// The benches whose name begins with one of `names`; all when there are none.
-std::vector<Bench> chosen_benches(std::vector<std::string> const& names) {
-  std::vector<Bench> all = all_benches();
+std::vector<Bench> chosen_benches(std::vector<std::string> const& names, parallel::Comm& comm) {
+  std::vector<Bench> all = all_benches(comm);
   if (names.empty()) return all;
   std::vector<std::string> known;
   for (Bench const& bench : all) known.push_back(bench.name);
@@ -120,7 +130,7 @@ void write_json(std::vector<Row> const& rows, std::string const& path, parallel:
 }  // namespace
 
 int run_bench(BenchOptions const& options, parallel::Comm& comm) {
-  std::vector<Bench> const benches = chosen_benches(options.names);
+  std::vector<Bench> const benches = chosen_benches(options.names, comm);
   if (comm.rank() == 0)
     fmt::print("{:<26}{:>14}{:>14}{:>12}{:>12}{:>10}\n", fmt::format("{} rank(s), per core", comm.size()), "Mitems/s",
                "us/item", "bytes/item", "flops/item", "of limit");

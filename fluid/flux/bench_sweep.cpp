@@ -106,18 +106,18 @@ void copy_periodic(Block& block, std::size_t along, Index n, Index ghosts) {
       }
 }
 
-Real share(BenchRow const& row, MachineRoofs const& roofs) {
+}  // namespace
+
+Real limit_share(BenchRow const& row, MachineRoofs const& roofs) {
   return max(row.items_per_s * row.bytes_per_item / roofs.bytes_per_s,
              row.items_per_s * row.flops_per_item / roofs.flops_per_s);
 }
-
-}  // namespace
 
 MachineRoofs measure_roofs() { return {measure_bandwidth(), measure_multiply_adds()}; }
 
 BenchRow bench_triad(MachineRoofs const& roofs) {
   BenchRow row{"stream.triad", roofs.bytes_per_s / 24, 24, 2, 0};
-  row.limit_share = share(row, roofs);
+  row.limit_share = limit_share(row, roofs);
   return row;
 }
 BenchRow bench_multiply_add(MachineRoofs const& roofs) {
@@ -149,9 +149,9 @@ BenchRow bench_sweep(int order, int dimension, MachineRoofs const& roofs, Index 
     forward = !forward;
   });
   Real const cells = static_cast<Real>(grid.cell_count());
-  BenchRow row{"fluid." + std::to_string(dimension) + "d.order" + std::to_string(order), cells / time, 80.0 * dimension,
-               sweep_operations(order) * dimension, 0};
-  row.limit_share = share(row, roofs);
+  BenchRow row{"fluid.kernel." + std::to_string(dimension) + "d.order" + std::to_string(order), cells / time,
+               80.0 * dimension, sweep_operations(order) * dimension, 0};
+  row.limit_share = limit_share(row, roofs);
   return row;
 }
 

@@ -6,7 +6,8 @@
 
 namespace brisance::fluid {
 
-/// One measured row. Rates are per core, from processor time, best of several.
+/// One measured row. Rates are per core, best of several; from processor time, where ranks wait for each other from
+/// wall time.
 struct BenchRow {
   std::string name;
   Real items_per_s = 0;
@@ -21,14 +22,17 @@ struct MachineRoofs {
   Real flops_per_s = 0;  ///< independent multiply-adds
 };
 MachineRoofs measure_roofs();
+/// Share of the closer of the two roofs that a row reaches.
+Real limit_share(BenchRow const& row, MachineRoofs const& roofs);
 /// `stream.triad`: a = b + s c; an item is one element.
 BenchRow bench_triad(MachineRoofs const& roofs);
 /// `arithmetic.multiply_add`: an item is one multiply-add of one lane.
 BenchRow bench_multiply_add(MachineRoofs const& roofs);
 
-/// `fluid.<dimension>d.order<N>`: periodic copies and one sweep per direction over side^3 cells, smooth flow and a
-/// blast, with positivity. Item: cell-step. In fewer dimensions the cells are a set of planes or lines swept together.
-/// Expects: side >= 16. Cost: about 7 side^3 dimension / 3e7 s.
+/// `fluid.kernel.<dimension>d.order<N>`: the kernel alone: periodic copies and one sweep per direction over one block
+/// of side^3 cells, smooth flow and a blast, with positivity. Item: cell-step. In fewer dimensions the cells are a set
+/// of planes or lines swept together. Whole steps: bench_steps.hpp. Expects: side >= 16. Cost: about 7 side^3 dimension
+/// / 3e7 s.
 BenchRow bench_sweep(int order, int dimension, MachineRoofs const& roofs, Index side = 96);
 
 /// Operations of one cell in one sweep, counted on the text of the kernel (tests/unit/fluid/flux/operations_test.cpp).
