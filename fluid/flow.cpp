@@ -26,7 +26,8 @@ Flow::Flow(FlowConfig const& config, Grid grid, std::vector<int> owner, parallel
       ghosts_(grid_, owner_, blocks_, boundaries_, comm),
       options_(config.options()),
       sleep_(config.sleep),
-      uniform_(blocks_.size()) {
+      uniform_(blocks_.size()),
+      surveys_(blocks_.size()) {
   if (grid_.dimension > 1 && options_.shear_dissipation > 0)
     sensor_ = std::make_unique<ShockSensor>(grid_, owner_, blocks_, comm);
   GasState const& ambient = config.ambient;
@@ -34,8 +35,19 @@ Flow::Flow(FlowConfig const& config, Grid grid, std::vector<int> owner, parallel
 }
 
 std::vector<Block>& Flow::blocks() {
-  uniform_.all_changed();
+  for (std::size_t b = 0; b < blocks_.size(); ++b) changed(b);
   return blocks_;
+}
+
+void Flow::changed(std::size_t position) {
+  uniform_.changed(position);
+  surveys_[position].reset();
+}
+
+Survey const& Flow::survey(std::size_t position) const {
+  std::optional<Survey>& seen = surveys_[position];
+  if (!seen) seen = fluid::survey(blocks_[position], gas_);
+  return *seen;
 }
 
 std::size_t Flow::position(Index block_id) const {
@@ -47,7 +59,7 @@ std::size_t Flow::position(Index block_id) const {
 Block* Flow::find(Index block_id) {
   std::size_t const b = position(block_id);
   if (b == blocks_.size()) return nullptr;
-  uniform_.changed(b);
+  changed(b);
   return &blocks_[b];
 }
 
@@ -93,7 +105,7 @@ void Flow::restore() {
       if (now && same_bits(*now, *saved.uniform)) continue;  // it slept
       blocks_[b].fill(*saved.uniform);
     }
-    uniform_.changed(b);
+    changed(b);
   }
   ledger_ = saved_ledger_;
 }

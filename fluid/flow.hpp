@@ -14,6 +14,7 @@
 #include "fluid/grid/block.hpp"
 #include "fluid/shock_sensor.hpp"
 #include "fluid/sleep.hpp"
+#include "fluid/survey.hpp"
 #include "parallel/comm.hpp"
 
 namespace brisance::fluid {
@@ -71,6 +72,9 @@ class Flow {
   }
   SweepOptions const& options() const { return options_; }
 
+  /// What the cells of the block at this position in blocks() hold now; looked at once, and again after they changed.
+  Survey const& survey(std::size_t position) const;
+
   /// From now on every block is swept: for effects that act on uniform gas too, such as body forces.
   void keep_awake() { sleep_ = false; }
   /// What sleep saved on this rank since the start of the program.
@@ -96,6 +100,7 @@ class Flow {
   void sweep_block(std::size_t position, int direction, Real dt, SweepReport& total);
   bool sleeps(std::size_t position, int direction, Real dt, SweepReport& total);
   void look_at_blocks();
+  void changed(std::size_t position);
   std::size_t position(Index block_id) const;  ///< in blocks_, their number when another rank owns it
 
   Grid grid_;
@@ -119,6 +124,7 @@ class Flow {
   UniformBlocks uniform_;
   UniformSweeps uniform_sweeps_;
   Saved saved_by_sleep_;
+  mutable std::vector<std::optional<Survey>> surveys_;  ///< a cache
 };
 
 /// The cells of a block as a box for sweep_box.

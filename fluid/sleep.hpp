@@ -21,9 +21,6 @@ class UniformBlocks {
 
   /// The cells of block b may have changed.
   void changed(std::size_t b) { known_[b].looked = false; }
-  void all_changed() {
-    for (Known& k : known_) k.looked = false;
-  }
   /// Looks at block b if it may have changed since the last look.
   void look(std::size_t b, Block const& block);
   /// The state in all cells of block b as of the last look; null: not uniform, or changed since.

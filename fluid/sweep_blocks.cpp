@@ -49,7 +49,7 @@ void Flow::sweep_block(std::size_t position, int direction, Real dt, SweepReport
   saved_by_sleep_.cell_sweeps += std::int64_t{size[0]} * size[1] * size[2];
   if (sleeps(position, direction, dt, total)) return;
   ghosts_.complete(position, direction);
-  uniform_.changed(position);
+  changed(position);
   if (sweeper_ && sweeper_->handles(block.id())) {
     merge(total, sweeper_->sweep(block, direction, dt), block.first(), grid_);
     return;

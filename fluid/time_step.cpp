@@ -3,55 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "fluid/flux/face.hpp"
+#include "fluid/survey.hpp"
 
 namespace brisance::fluid {
-namespace {
-
-/// |u_d| + c per direction; 0 in vacuum. `V`: a double or a pack.
-template <class V>
-std::array<V, 3> cell_speeds(V const& density, V const& mx, V const& my, V const& mz, V const& energy, Gas const& gas) {
-  V const zero(0.0);
-  Mask<V> const some = density > V(gas.vacuum_density);
-  V const r = V(1.0) / select(some, density, V(1.0));
-  V const u = mx * r, v = my * r, w = mz * r;
-  V internal = energy - V(0.5) * (mx * u + my * v + mz * w);
-  if (!gas.curve.zero()) internal = internal - curve_at(density, gas.curve, V(gas.vacuum_density)).energy;
-  Mask<V> const full = some && internal > V(gas.vacuum_energy);
-  V square = V(gas.gamma * gas.kappa()) * internal * r;
-  if (gas.curve.exponential()) square = square + curve_at(density, gas.curve, V(gas.vacuum_density)).slope;
-  V const c = sqrt(select(full, square, zero));
-  return {select(full, abs(u) + c, zero), select(full, abs(v) + c, zero), select(full, abs(w) + c, zero)};
-}
-
-struct RowMax {
-  std::array<Pack, 3> pack{Pack(0.0), Pack(0.0), Pack(0.0)};
-  std::array<Real, 3> scalar{};
-
-  void row(std::array<Real const*, 5> const& u, Index n, Gas const& gas) {
-    constexpr Index width = static_cast<Index>(Pack::size);
-    Index i = 0;
-    for (; i + width <= n; i += width) {
-      auto const s = cell_speeds(load<Pack>(u[0] + i), load<Pack>(u[1] + i), load<Pack>(u[2] + i), load<Pack>(u[3] + i),
-                                 load<Pack>(u[4] + i), gas);
-      for (std::size_t d = 0; d < 3; ++d) pack[d] = max(pack[d], s[d]);
-    }
-    for (; i < n; ++i) cell(u, i, gas);
-  }
-  void cell(std::array<Real const*, 5> const& u, Index i, Gas const& gas) {
-    auto const s = cell_speeds(u[0][i], u[1][i], u[2][i], u[3][i], u[4][i], gas);
-    for (std::size_t d = 0; d < 3; ++d) scalar[d] = max(scalar[d], s[d]);
-  }
-  Real value(std::size_t d) const {
-    alignas(Pack) std::array<Real, Pack::size> lanes;
-    store(lanes.data(), pack[d]);
-    Real best = scalar[d];
-    for (Real const lane : lanes) best = max(best, lane);
-    return best;
-  }
-};
-
-}  // namespace
 
 std::vector<int> directions(int dimension, std::int64_t step) {
   if (dimension == 1) return {0};
@@ -65,41 +19,53 @@ std::vector<int> directions(int dimension, std::int64_t step) {
 
 namespace {
 
-/// `row_speeds(best, block, row, j, k)` adds one row of cells.
-template <class Row>
-std::array<Real, 3> largest_speeds(Flow const& flow, Row const& row_speeds) {
-  RowMax best;
-  for (Block const& block : flow.blocks())
-    for (Index k = 0; k < block.size()[2]; ++k)
-      for (Index j = 0; j < block.size()[1]; ++j) {
-        std::array<Real const*, 5> row;
-        for (int q = 0; q < 5; ++q) row[static_cast<std::size_t>(q)] = block.component(q) + block.at(0, j, k);
-        row_speeds(best, block, row, j, k);
+/// `part(best, block)` adds the largest speeds of a block that is not whole and tells so.
+template <class Part>
+std::array<Real, 3> largest_speeds(Flow const& flow, Part const& part) {
+  std::array<Real, 3> best{};
+  for (std::size_t b = 0; b < flow.blocks().size(); ++b)
+    if (!part(best, flow.blocks()[b])) {
+      Survey const& seen = flow.survey(b);
+      for (std::size_t d = 0; d < 3; ++d) best[d] = max(best[d], seen.speed[d]);
+    }
+  for (std::size_t d = static_cast<std::size_t>(flow.grid().dimension); d < 3; ++d) best[d] = 0;
+  return best;
+}
+
+/// Adds the cells (i, j, k) of a block for which `counts` is true.
+template <class Counts>
+void add_cells(std::array<Real, 3>& best, Block const& block, Gas const& gas, Counts const& counts) {
+  auto const [nx, ny, nz] = block.size();
+  for (Index k = 0; k < nz; ++k)
+    for (Index j = 0; j < ny; ++j)
+      for (Index i = 0; i < nx; ++i) {
+        if (!counts(i, j, k)) continue;
+        std::array<Real, 3> const s = signal_speeds(block.load(i, j, k), gas);
+        for (std::size_t d = 0; d < 3; ++d) best[d] = max(best[d], s[d]);
       }
-  std::array<Real, 3> speeds{};
-  for (std::size_t d = 0; d < static_cast<std::size_t>(flow.grid().dimension); ++d) speeds[d] = best.value(d);
-  return speeds;
 }
 
 }  // namespace
 
 std::array<Real, 3> signal_speeds(Flow const& flow, CellMask const& skip) {
-  return largest_speeds(flow, [&](RowMax& best, Block const& block, auto const& row, Index j, Index k) {
-    auto const [nx, ny, nz] = block.size();
+  return largest_speeds(flow, [&](std::array<Real, 3>& best, Block const& block) {
     std::uint8_t const* const mask = skip ? skip(block.id()) : nullptr;
-    if (!mask) return best.row(row, nx, flow.gas());
-    std::uint8_t const* const here = mask + std::ptrdiff_t{nx} * (j + std::ptrdiff_t{ny} * k);
-    for (Index i = 0; i < nx; ++i)
-      if (here[i] == 0) best.cell(row, i, flow.gas());
+    if (!mask) return false;
+    auto const [nx, ny, nz] = block.size();
+    std::ptrdiff_t const row = nx, plane = row * ny;
+    add_cells(best, block, flow.gas(), [=](Index i, Index j, Index k) { return mask[i + row * j + plane * k] == 0; });
+    return true;
   });
 }
 
 std::array<Real, 3> signal_speeds(Flow const& flow, FluidVolume const& volume) {
-  return largest_speeds(flow, [&](RowMax& best, Block const& block, auto const& row, Index j, Index k) {
-    if (!volume.cuts(block.id())) return best.row(row, block.size()[0], flow.gas());
+  return largest_speeds(flow, [&](std::array<Real, 3>& best, Block const& block) {
+    if (!volume.cuts(block.id())) return false;
     CellIndex const first = block.first();
-    for (Index i = 0; i < block.size()[0]; ++i)
-      if (volume({first[0] + i, first[1] + j, first[2] + k}) > 0) best.cell(row, i, flow.gas());
+    add_cells(best, block, flow.gas(), [&](Index i, Index j, Index k) {
+      return volume({first[0] + i, first[1] + j, first[2] + k}) > 0;
+    });
+    return true;
   });
 }
 

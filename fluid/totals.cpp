@@ -13,9 +13,8 @@ void add(Sums& to, Sums const& part) {
   for (std::size_t q = 0; q < 6; ++q) to[q] += part[q];
 }
 
-/// Row by row and plane by plane: short sums lose fewer digits than one long one.
-template <class Weight>
-Sums block_sums(Block const& block, Weight const& weight) {
+/// Of a block that walls cut. Row by row and plane by plane: short sums lose fewer digits than one long one.
+Sums sums_of_cut(Block const& block, FluidVolume const& volume) {
   auto const [nx, ny, nz] = block.size();
   CellIndex const first = block.first();
   Sums sums{};
@@ -24,10 +23,10 @@ Sums block_sums(Block const& block, Weight const& weight) {
     for (Index j = 0; j < ny; ++j) {
       Sums row{};
       for (Index i = 0; i < nx; ++i) {
-        Real const w = weight(CellIndex{first[0] + i, first[1] + j, first[2] + k});
+        Real const v = volume({first[0] + i, first[1] + j, first[2] + k});
         State const u = block.load(i, j, k);
-        for (std::size_t q = 0; q < 5; ++q) row[q] += w * u[q];
-        row[5] += w * std::sqrt(u[1] * u[1] + u[2] * u[2] + u[3] * u[3]);
+        for (std::size_t q = 0; q < 5; ++q) row[q] += v * u[q];
+        row[5] += v * std::sqrt(u[1] * u[1] + u[2] * u[2] + u[3] * u[3]);
       }
       add(plane, row);
     }
@@ -36,36 +35,36 @@ Sums block_sums(Block const& block, Weight const& weight) {
   return sums;
 }
 
-/// Calls visit(cell, state, fluid volume) for the cells of this rank that hold fluid.
+Sums sums_of_whole(Survey const& seen, Real cell_volume) {
+  Sums sums{};
+  for (std::size_t q = 0; q < 5; ++q) sums[q] = seen.sum[q] * cell_volume;
+  sums[5] = seen.momentum_size * cell_volume;
+  return sums;
+}
+
+/// Calls visit(cell, state, fluid volume) for the cells of a block that hold fluid.
 template <class Visit>
-void for_cells(Flow const& flow, FluidVolume const& volume, Visit&& visit) {
-  Real const whole = flow.grid().cell_volume();
-  for (Block const& block : flow.blocks()) {
-    auto const [nx, ny, nz] = block.size();
-    CellIndex const first = block.first();
-    bool const cut = volume.cuts(block.id());
-    for (Index k = 0; k < nz; ++k)
-      for (Index j = 0; j < ny; ++j)
-        for (Index i = 0; i < nx; ++i) {
-          CellIndex const c{first[0] + i, first[1] + j, first[2] + k};
-          Real const v = cut ? volume(c) : whole;
-          if (v > 0) visit(c, block.load(i, j, k), v);
-        }
-  }
+void for_cells(Block const& block, Grid const& grid, FluidVolume const& volume, Visit&& visit) {
+  auto const [nx, ny, nz] = block.size();
+  CellIndex const first = block.first();
+  bool const cut = volume.cuts(block.id());
+  for (Index k = 0; k < nz; ++k)
+    for (Index j = 0; j < ny; ++j)
+      for (Index i = 0; i < nx; ++i) {
+        CellIndex const c{first[0] + i, first[1] + j, first[2] + k};
+        Real const v = cut ? volume(c) : grid.cell_volume();
+        if (v > 0) visit(c, block.load(i, j, k), v);
+      }
 }
 
 }  // namespace
 
 LocalTotals local_totals(Flow const& flow, FluidVolume const& volume) {
   LocalTotals sums;
-  for (Block const& block : flow.blocks()) {
-    Sums part;
-    if (volume.cuts(block.id())) {
-      part = block_sums(block, volume);
-    } else {
-      part = block_sums(block, [](CellIndex) { return 1.0; });
-      for (Real& x : part) x *= flow.grid().cell_volume();
-    }
+  for (std::size_t b = 0; b < flow.blocks().size(); ++b) {
+    Block const& block = flow.blocks()[b];
+    Sums const part =
+        volume.cuts(block.id()) ? sums_of_cut(block, volume) : sums_of_whole(flow.survey(b), flow.grid().cell_volume());
     sums.mass.add(part[0]);
     for (std::size_t d = 0; d < 3; ++d) sums.momentum[d].add(part[1 + d]);
     sums.energy.add(part[4]);
@@ -86,22 +85,33 @@ Extremes extremes(Flow const& flow, FluidVolume const& volume) {
   Gas const& gas = flow.gas();
   constexpr Real infinite = std::numeric_limits<Real>::infinity();
   Extremes e{infinite, infinite, 0};
-  for_cells(flow, volume, [&](CellIndex, State const& u, Real) {
-    if (gas.vacuum(u)) return;
-    e.density_min = min(e.density_min, u[0]);
-    e.pressure_min = min(e.pressure_min, gas.pressure(u));
-    Real const speed = std::sqrt(u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
-    e.mach_max = max(e.mach_max, speed / gas.sound_speed(u));
-  });
+  for (std::size_t b = 0; b < flow.blocks().size(); ++b) {
+    Block const& block = flow.blocks()[b];
+    if (!volume.cuts(block.id())) {
+      Survey const& seen = flow.survey(b);
+      e.density_min = min(e.density_min, seen.density_min);
+      e.pressure_min = min(e.pressure_min, seen.pressure_min);
+      e.mach_max = max(e.mach_max, seen.mach_max);
+      continue;
+    }
+    for_cells(block, flow.grid(), volume, [&](CellIndex, State const& u, Real) {
+      if (gas.vacuum(u)) return;
+      e.density_min = min(e.density_min, u[0]);
+      e.pressure_min = min(e.pressure_min, gas.pressure(u));
+      Real const speed = std::sqrt(u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0];
+      e.mach_max = max(e.mach_max, speed / gas.sound_speed(u));
+    });
+  }
   return e;
 }
 
 void add_cells(parallel::Digest& digest, Flow const& flow, FluidVolume const& volume) {
   Grid const& grid = flow.grid();
-  for_cells(flow, volume, [&](CellIndex c, State const& u, Real v) {
-    Real const bits[6] = {u[0], u[1], u[2], u[3], u[4], v};
-    digest.add(cell_kind, grid.cell_id(c), bits);
-  });
+  for (Block const& block : flow.blocks())
+    for_cells(block, grid, volume, [&](CellIndex c, State const& u, Real v) {
+      Real const bits[6] = {u[0], u[1], u[2], u[3], u[4], v};
+      digest.add(cell_kind, grid.cell_id(c), bits);
+    });
 }
 
 }  // namespace brisance::fluid

@@ -3,6 +3,7 @@ brisance_test(fluid_domain_unit
           unit/fluid/flow_config_test.cpp unit/fluid/flow_test.cpp unit/fluid/time_step_test.cpp
           unit/fluid/gauges/gauge_stencil_test.cpp unit/fluid/gauges/gauge_history_test.cpp
           unit/fluid/sleep_test.cpp
+          unit/fluid/survey_test.cpp
   LINKS brisance::fluid
   LABELS unit)
 brisance_test(fluid_ghosts SOURCES unit/fluid/ghosts_test.cpp LINKS brisance::fluid RANKS 1 2 3 4 LABELS unit)
