@@ -42,12 +42,14 @@ void UniformBlocks::look(std::size_t b, Block const& block) {
   known.state = first;
 }
 
-void UniformSweeps::begin(int order, int dimension, int direction, Real sigma, Gas const& gas) {
+void UniformSweeps::begin(int order, int dimension, int direction, Real sigma, Gas const& gas,
+                          SweepOptions const& options) {
   order_ = order;
   dimension_ = dimension;
   direction_ = direction;
   sigma_ = sigma;
   gas_ = gas;
+  options_ = options;
   cases_.clear();
 }
 
@@ -79,7 +81,7 @@ UniformSweeps::Outcome UniformSweeps::sweep_pencil(State const& inside, State co
     box.u[q] = row + ghosts;
   }
   Outcome outcome;
-  outcome.face = sweep_box(order_, box, direction_, sigma_, gas_);
+  outcome.face = sweep_box(order_, box, direction_, sigma_, gas_, options_);
   outcome.unchanged =
       outcome.face.health == 0 && outcome.face.fallback_faces == 0 && outcome.face.fallback_faces_high_end == 0;
   for (Index i = 0; i < cells; ++i)

@@ -46,7 +46,7 @@ class UniformSweeps {
   };
 
   /// Begins a sweep: what other sweeps found is forgotten.
-  void begin(int order, int dimension, int direction, Real sigma, Gas const& gas);
+  void begin(int order, int dimension, int direction, Real sigma, Gas const& gas, SweepOptions const& options = {});
   /// `cells`: length of the block along the sweep. The result holds until the next call.
   Outcome const& find(State const& inside, State const& low, State const& high, Index cells);
 
@@ -61,6 +61,7 @@ class UniformSweeps {
   int order_ = 1, dimension_ = 1, direction_ = 0;
   Real sigma_ = 0;
   Gas gas_;
+  SweepOptions options_;
   std::vector<Case> cases_;
   std::vector<Real> pencil_;
 };

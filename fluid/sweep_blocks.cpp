@@ -27,6 +27,7 @@ bool Flow::sleeps(std::size_t position, int direction, Real dt, SweepReport& tot
   State const *const low = ghosts_.end(position, 0), *const high = ghosts_.end(position, 1);
   if (!low || !high) return false;
   Block const& block = blocks_[position];
+  if (marks(block)) return false;  // a shock is close
   CellIndex const size = block.size();
   Index const along = size[static_cast<std::size_t>(direction)];
   UniformSweeps::Outcome const& found = uniform_sweeps_.find(*inside, *low, *high, along);
@@ -70,7 +71,7 @@ SweepReport Flow::sweep(int direction, Real dt) {
   SweepReport total;
   if (sweeper_) sweeper_->prepare(direction, dt);
   look_at_blocks();
-  uniform_sweeps_.begin(order_, grid_.dimension, direction, dt / grid_.spacing[direction], gas_);
+  uniform_sweeps_.begin(order_, grid_.dimension, direction, dt / grid_.spacing[direction], gas_, options_);
   ghosts_.start(direction, sleep_ ? &uniform_ : nullptr);
   for (std::size_t const b : ghosts_.ready(direction)) sweep_block(b, direction, dt, total);
   ghosts_.finish(direction);
