@@ -26,22 +26,28 @@ Flow::Flow(FlowConfig const& config, Grid grid, std::vector<int> owner, parallel
       ghosts_(grid_, owner_, blocks_, boundaries_, comm),
       options_(config.options()),
       sleep_(config.sleep),
+      saved_(blocks_.size()),
       uniform_(blocks_.size()),
       surveys_(blocks_.size()) {
   if (grid_.dimension > 1 && options_.shear_dissipation > 0)
     sensor_ = std::make_unique<ShockSensor>(grid_, owner_, blocks_, comm);
   GasState const& ambient = config.ambient;
-  for (Block& block : blocks_) block.fill(gas_.conserved(ambient.density, ambient.velocity, ambient.pressure));
+  ambient_ = gas_.conserved(ambient.density, ambient.velocity, ambient.pressure);
+  for (Block& block : blocks_) block.fill(ambient_);
 }
 
 std::vector<Block>& Flow::blocks() {
-  for (std::size_t b = 0; b < blocks_.size(); ++b) changed(b);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    keep_saved(b);
+    changed(b);
+  }
   return blocks_;
 }
 
 void Flow::changed(std::size_t position) {
   uniform_.changed(position);
   surveys_[position].reset();
+  if (sensor_) sensor_->changed(position);
 }
 
 Survey const& Flow::survey(std::size_t position) const {
@@ -59,6 +65,7 @@ std::size_t Flow::position(Index block_id) const {
 Block* Flow::find(Index block_id) {
   std::size_t const b = position(block_id);
   if (b == blocks_.size()) return nullptr;
+  keep_saved(b);
   changed(b);
   return &blocks_[b];
 }
@@ -77,34 +84,41 @@ void Flow::look_at_blocks() {
 
 void Flow::begin_step() {
   if (!sensor_) return;
+  look_at_blocks();
   sensor_->update(
       blocks_, gas_, [this](Index block) { return sweeper_ && sweeper_->handles(block); },
-      [this](Block const& block, Index i, Index j, Index k) { return sweeper_->is_fluid(block, i, j, k); });
+      [this](Block const& block, Index i, Index j, Index k) { return sweeper_->is_fluid(block, i, j, k); },
+      [this](std::size_t position) { return uniform_.state(position) != nullptr; });
 }
 
 void Flow::save() {
-  look_at_blocks();
-  saved_.resize(blocks_.size());
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    State const* const u = uniform_.state(b);
-    saved_[b].uniform = u ? std::optional(*u) : std::nullopt;
-    if (u) continue;
-    std::span<Real const> const all = std::as_const(blocks_[b]).storage();
-    saved_[b].cells.assign(all.begin(), all.end());
-  }
+  for (SavedBlock& saved : saved_) saved.untouched = true;
   saved_ledger_ = ledger_;
+}
+
+Block& Flow::spare(std::size_t position) {
+  std::optional<Block>& spare = saved_[position].spare;
+  if (!spare) {
+    Block const& block = blocks_[position];
+    spare.emplace(grid_, block.id(), ghost_depth(order_));
+    spare->fill(ambient_);
+  }
+  return *spare;
+}
+
+/// Called before the cells of a block are written to in place.
+void Flow::keep_saved(std::size_t position) {
+  if (!saved_[position].untouched) return;
+  std::ranges::copy(std::as_const(blocks_[position]).storage(), spare(position).storage().begin());
+  saved_[position].untouched = false;
 }
 
 void Flow::restore() {
   for (std::size_t b = 0; b < saved_.size(); ++b) {
-    SavedBlock const& saved = saved_[b];
-    if (!saved.uniform) {
-      std::ranges::copy(saved.cells, blocks_[b].storage().begin());
-    } else {
-      State const* const now = uniform_.state(b);
-      if (now && same_bits(*now, *saved.uniform)) continue;  // it slept
-      blocks_[b].fill(*saved.uniform);
-    }
+    SavedBlock& saved = saved_[b];
+    if (saved.untouched || !saved.spare) continue;
+    std::swap(blocks_[b], *saved.spare);
+    saved.untouched = true;
     changed(b);
   }
   ledger_ = saved_ledger_;
@@ -113,7 +127,7 @@ void Flow::restore() {
 std::size_t Flow::bytes() const {
   std::size_t n = ghosts_.bytes() + (sensor_ ? sensor_->bytes() : 0);
   for (Block const& block : blocks_) n += block.bytes();
-  for (SavedBlock const& copy : saved_) n += copy.cells.capacity() * sizeof(Real);
+  for (SavedBlock const& saved : saved_) n += saved.spare ? saved.spare->bytes() : 0;
   return n;
 }
 

@@ -90,7 +90,8 @@ class Flow {
   /// ledger.
   SweepReport sweep(int direction, Real dt);
 
-  /// Keeps the cells and the ledger for restore(): the state to which a rejected pair of steps returns.
+  /// Keeps the cells and the ledger for restore(): the state to which a rejected pair of steps returns. The cells stay
+  /// where they are until they are about to change.
   void save();
   void restore();
 
@@ -101,26 +102,31 @@ class Flow {
   bool sleeps(std::size_t position, int direction, Real dt, SweepReport& total);
   void look_at_blocks();
   void changed(std::size_t position);
+  Block& spare(std::size_t position);
+  void keep_saved(std::size_t position);
   std::size_t position(Index block_id) const;  ///< in blocks_, their number when another rank owns it
 
   Grid grid_;
   Gas gas_;
   int order_;
+  State ambient_{};
   std::vector<int> owner_;
   parallel::Comm& comm_;
   std::vector<Block> blocks_;
   Boundaries boundaries_;
   Ghosts ghosts_;
   BoundaryLedger ledger_, saved_ledger_;
-  struct SavedBlock {
-    std::vector<Real> cells;
-    std::optional<State> uniform;  ///< then `cells` mean nothing
-  };
-  std::vector<SavedBlock> saved_;
-  BlockSweeper* sweeper_ = nullptr;
   SweepOptions options_;
   std::unique_ptr<ShockSensor> sensor_;
   bool sleep_;
+  /// What save() promised of a block. Most blocks are never copied: their first sweep after it goes from the block into
+  /// the spare and the two change places; a block that sleeps is not touched.
+  struct SavedBlock {
+    bool untouched = false;      ///< the block holds what is to be kept
+    std::optional<Block> spare;  ///< else this does; made when it is needed first
+  };
+  std::vector<SavedBlock> saved_;
+  BlockSweeper* sweeper_ = nullptr;
   UniformBlocks uniform_;
   UniformSweeps uniform_sweeps_;
   Saved saved_by_sleep_;

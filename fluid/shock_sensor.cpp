@@ -53,14 +53,17 @@ ShockSensor::ShockSensor(Grid const& grid, std::vector<int> const& owner, std::v
       pressure_(layers_of<Real>(blocks)),
       marks_(layers_of<std::uint8_t>(blocks)),
       marked_(blocks.size(), 0),
+      changed_(blocks.size(), 1),
       exchange_pressure_(grid, owner, blocks, reach, comm, pressure_tag),
       exchange_marks_(grid, owner, blocks, 1, comm, mark_tag) {}
 
 void ShockSensor::update(std::vector<Block> const& blocks, Gas const& gas, std::function<bool(Index)> const& has_walls,
-                         IsFluid const& is_fluid) {
+                         IsFluid const& is_fluid, std::function<bool(std::size_t)> const& uniform) {
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     auto const [nx, ny, nz] = blocks[b].size();
     bool const walls = has_walls(blocks[b].id());
+    if (!changed_[b] && !walls) continue;
+    changed_[b] = walls;  // they move
     for (Index k = 0; k < nz; ++k)
       for (Index j = 0; j < ny; ++j) {
         Real* const row = pressure_[b].at(0, j, k);
@@ -75,7 +78,7 @@ void ShockSensor::update(std::vector<Block> const& blocks, Gas const& gas, std::
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     bool const before = marked_[b];
     if (before) marks_[b].fill(0);
-    marked_[b] = mark(b);
+    marked_[b] = uniform(b) && !steep_at_ends(b) ? false : mark(b);
   }
   // A ghost beyond a side of the domain takes the mark of the cell beside it.
   exchange_marks_.run(marks_, [](CellLayer<std::uint8_t>& layer, int direction, int side) {
@@ -92,6 +95,25 @@ void ShockSensor::update(std::vector<Block> const& blocks, Gas const& gas, std::
         }
   });
   for (std::size_t b = 0; b < blocks.size(); ++b) marked_[b] = marked_[b] || any(marks_[b]);
+}
+
+/// Is a face steep between or beside the ghosts? In a uniform block no other can be.
+bool ShockSensor::steep_at_ends(std::size_t position) const {
+  CellLayer<Real> const& p = pressure_[position];
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d)
+    for (int side = 0; side < 2; ++side) {
+      CellIndex begin{0, 0, 0}, end = p.size();
+      begin[d] = side == 0 ? -1 : p.size()[d];
+      end[d] = begin[d] + 1;
+      std::ptrdiff_t const inward = side == 0 ? p.stride()[d] : -p.stride()[d];
+      for (Index k = begin[2]; k < end[2]; ++k)
+        for (Index j = begin[1]; j < end[1]; ++j)
+          for (Index i = begin[0]; i < end[0]; ++i) {
+            Real const* const ghost = p.at(i, j, k);
+            if (steep(*ghost, ghost[inward]) || steep(*ghost, ghost[-inward])) return true;
+          }
+    }
+  return false;
 }
 
 /// Cell i is marked in d when one of the faces i-3/2 ... i+3/2 along d is steep: it or its neighbour along d is

@@ -1,4 +1,6 @@
 // Flow::sweep: order of work of one sweep over the blocks of this rank.
+#include <utility>
+
 #include "fluid/flow.hpp"
 
 namespace brisance::fluid {
@@ -51,14 +53,20 @@ void Flow::sweep_block(std::size_t position, int direction, Real dt, SweepReport
   if (sleeps(position, direction, dt, total)) return;
   ghosts_.complete(position, direction);
   changed(position);
+  SavedBlock& saved = saved_[position];
   if (sweeper_ && sweeper_->handles(block.id())) {
+    keep_saved(position);
     merge(total, sweeper_->sweep(block, direction, dt), block.first(), grid_);
     return;
   }
   CellBox box = box_of(block, grid_.dimension);
   if (CellLayer<std::uint8_t> const* const layer = marks(block))
     box.marks = layer->at(0, 0, 0), box.mark_stride = layer->stride();
+  if (saved.untouched)
+    for (int q = 0; q < 5; ++q) box.result[static_cast<std::size_t>(q)] = spare(position).component(q);
   SweepReport const report = sweep_box(order_, box, direction, dt / grid_.spacing[direction], gas_, options_);
+  if (saved.untouched) std::swap(block, *saved.spare);
+  saved.untouched = false;
   merge(total, report, block.first(), grid_);
   for (int side = 0; side < 2; ++side)
     if (grid_.neighbour(block.id(), direction, side) < 0) {

@@ -54,11 +54,13 @@ struct CellBox {
   /// every side. Null: no cell is marked.
   std::uint8_t const* marks = nullptr;
   std::array<std::ptrdiff_t, 3> mark_stride{};
+  /// Where the new cells go, laid out as `u`; all null: in place.
+  std::array<Real*, 5> result{};
 };
 
-/// In place: cell means at t -> after the sweep along `direction`. Ghosts of that direction must be filled.
-/// Shape: any size; what is narrower than a vector is padded. Units: sigma = dt/h in s/m.
-/// Errors: raises health bits (theory/fluid.md 4.4, 4.6), never throws. Source: theory/fluid.md 2-4.
+/// Cell means at t -> after the sweep along `direction`, in place or into `result`. Ghosts of that direction must be
+/// filled. Shape: any size; what is narrower than a vector is padded. Units: sigma = dt/h in s/m. Errors: raises health
+/// bits (theory/fluid.md 4.4, 4.6), never throws. Source: theory/fluid.md 2-4.
 SweepReport sweep_box(int order, CellBox const& box, int direction, Real sigma, Gas const& gas,
                       SweepOptions const& options = {});
 

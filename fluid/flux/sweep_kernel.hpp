@@ -81,7 +81,10 @@ class BoxSweep {
         slow_(direction == 2 ? 1 : 2),
         n_(box.size[along_]),
         component_(sweep_components(direction)) {
-    for (std::size_t q = 0; q < 5; ++q) u_[q] = box.u[component_[q]];
+    for (std::size_t q = 0; q < 5; ++q) {
+      u_[q] = box.u[component_[q]];
+      result_[q] = box.result[0] ? box.result[component_[q]] : u_[q];
+    }
   }
 
   SweepReport run() {
@@ -107,7 +110,10 @@ class BoxSweep {
 
   void sweep_in_place(Index fast, Index slow) {
     PencilData data{n_, {}, {}, box_.stride[along_], box_.stride[along_], all, all, all};
-    for (std::size_t q = 0; q < 5; ++q) data.in[q] = data.out[q] = u_[q] + offset(fast, slow);
+    for (std::size_t q = 0; q < 5; ++q) {
+      data.in[q] = u_[q] + offset(fast, slow);
+      data.out[q] = result_[q] + offset(fast, slow);
+    }
     Lanes lanes;
     for (Index lane = 0; lane < width; ++lane) lanes.pencil[std::size_t(lane)] = fast + lane;
     lanes.counted_low = lanes.counted_high = all;
@@ -142,7 +148,7 @@ class BoxSweep {
       take(data, lanes, [&](std::size_t lane) {
         return std::array{start + lanes.pencil[lane] % span, lanes.pencil[lane] / span};
       });
-      scatter(u_, lanes, stride, origin);
+      scatter(result_, lanes, stride, origin);
     }
   }
 
@@ -206,7 +212,7 @@ class BoxSweep {
   std::size_t const along_, fast_, slow_;
   Index const n_;
   std::array<std::size_t, 5> const component_;
-  std::array<Real*, 5> u_{};
+  std::array<Real*, 5> u_{}, result_{};
   Pencil<Order, Pack, Curve, false> pencil_;
   Pack signal_ = Pack(0.0);
   SweepReport report_;
