@@ -55,6 +55,7 @@ Real measured_rate(fluid::FlowConfig const& config, fluid::Grid const& grid) {
   for (std::size_t d = static_cast<std::size_t>(grid.dimension); d < 3; ++d) small.periodic[d] = false;
   fluid::divide(small, 512, fluid::ghost_depth(config.order()));
   fluid::FlowConfig plain = config;
+  plain.sleep = false;  // it is the awake rate that is asked for
   plain.region.clear();
   plain.charge.clear();
   auto const alone = parallel::serial();
@@ -166,6 +167,7 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
                               {"cells_across", c.cells_across},
                               {"density", c.density},
                               {"pressure", c.pressure}});
+    if (scene.fluid) j["options"] = {{"fluid.sleep", scene.fluid->sleep}};
     j["dt"] = {{"initial", dt}, {"limited_by", limited_by}};
     j["steps"] = std::ceil(steps);
     j["ranks"] = options.ranks;
@@ -178,6 +180,10 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
   fmt::print("{}: the scene is good\n\neffects\n", options.scene);
   for (std::string const& name : catalogue())
     fmt::print("  {:<24} {}\n", name, active(name) ? "on" : "off: " + why_off(name, scene));
+  if (scene.fluid)
+    fmt::print("\noptions\n  {:<24} {}\n", "fluid.sleep",
+               scene.fluid->sleep ? "on: uniform blocks are not swept; the predicted time counts all blocks"
+                                  : "off: all blocks are swept");
   fmt::print("\nstages\n");
   for (std::size_t s = 0; s < static_cast<std::size_t>(Stage::count); ++s) {
     auto const& tasks = world->plan.tasks(static_cast<Stage>(s));

@@ -44,7 +44,7 @@ void Output::resume(double time) {
 }
 
 void Output::write_fields(std::string const& path) {
-  fluid::Flow& flow = *world_.flow;
+  fluid::Flow const& flow = *world_.flow;
   parallel::ArchiveWriter file(*world_.comm, path);
   auto const boxes = fluid::cell_boxes(flow);
   fluid::Grid const& grid = flow.grid();

@@ -67,10 +67,16 @@ void write_summary(World& world, RunState const& run, std::string const& directo
     mine.push_back(e.wall_s);
     mine.push_back(static_cast<double>(e.bytes()));
   }
-  std::int64_t counts[6] = {
-      world.cut_cells ? world.cut_cells->cut_cell_count() : 0, world.euler ? world.euler->fallback_faces() : 0,
-      world.euler ? world.euler->cell_updates() : 0,           world.dynamics ? world.dynamics->link_updates() : 0,
-      world.cut_cells ? world.cut_cells->cut_cells_done() : 0, 0};
+  fluid::Flow::Saved const saved = world.flow ? world.flow->saved_by_sleep() : fluid::Flow::Saved{};
+  std::int64_t counts[] = {world.cut_cells ? world.cut_cells->cut_cell_count() : 0,
+                           world.euler ? world.euler->fallback_faces() : 0,
+                           world.euler ? world.euler->cell_updates() : 0,
+                           world.dynamics ? world.dynamics->link_updates() : 0,
+                           world.cut_cells ? world.cut_cells->cut_cells_done() : 0,
+                           saved.block_sweeps,
+                           saved.block_sweeps_skipped,
+                           saved.cell_sweeps,
+                           saved.cell_sweeps_skipped};
   comm.sum(std::span(counts));
   parallel::Bytes bytes(mine.size() * sizeof(double));
   std::memcpy(bytes.data(), mine.data(), bytes.size());
@@ -134,6 +140,14 @@ void write_summary(World& world, RunState const& run, std::string const& directo
     j["throughput"] = {{"cell_updates_per_s", static_cast<double>(counts[2]) / loop_s},
                        {"link_updates_per_s", static_cast<double>(counts[3]) / loop_s},
                        {"cut_cells_per_s", static_cast<double>(counts[4]) / loop_s}};
+    if (world.flow && counts[7] > 0) {
+      // Share of the work of the sweeps, and how much faster they are for it. Since the program started, as timings.
+      double const share = static_cast<double>(counts[8]) / static_cast<double>(counts[7]);
+      j["sleep"] = {{"block_sweeps", counts[5]},
+                    {"block_sweeps_skipped", counts[6]},
+                    {"share", share},
+                    {"gain", number_or_null(1 / (1 - share))}};
+    }
     nlohmann::ordered_json effects;
     for (std::string const& name : catalogue()) {
       auto const& known = world.plan.effects();

@@ -14,6 +14,7 @@ brisance_same_digest(explosion-box-3d ${scenes}/explosion-box-3d.toml 24 --set f
 brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40)
 brisance_same_digest(bodies-leave ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-leave.toml 240)
 brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 60)
+brisance_same_digest(blast-in-a-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/blast-in-a-box.toml 24)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
 
 # brisance_same_gauges(name SCENE steps [options of run])
@@ -42,6 +43,9 @@ brisance_expect(check_explosion-cylinder CODE 0 LABELS unit MESSAGE "coupling.cu
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --ranks 4)
 brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity +off: .*output.gauges +on.*416 particles.*charges +fluid.charge.0.: 1 kg of gas with 4.184 MJ above"
                 COMMAND ${program} check ${scenes}/explosion-box-3d.toml --ranks 2)
+
+brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
+                COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)
 
 # Truncated checkpoints and a full disk.
 add_test(NAME truncated_checkpoint COMMAND ${PROJECT_SOURCE_DIR}/tests/support/truncated_checkpoint.sh ${program}

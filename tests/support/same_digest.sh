@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # same_digest.sh PROGRAM WORK STEPS SCENE [options of run]: the scene ends with the same state_digest on 1, 2, 3 and 4 ranks,
-# and when it is stopped half way and restarted on another number of ranks; blocks of another size give the same bits too.
+# and when it is stopped half way and restarted on another number of ranks; blocks of another size
+# give the same bits too, and so do blocks that may not sleep.
 set -u
 program=$1 work=$2 steps=$3 scene=$4
 shift 4
@@ -37,6 +38,8 @@ done
 if grep -q '^\[fluid\]' "$scene"; then
   run 2 blocks run "$scene" --out "$work/blocks" --steps "$steps" "$@" --set fluid.block=17
   check "blocks of 17 cells" "$work/blocks"
+  run 2 awake run "$scene" --out "$work/awake" --steps "$steps" "$@" --set fluid.sleep=false
+  check "no block sleeps" "$work/awake"
 fi
 half=$((steps / 2))
 for pair in "1 3" "2 1" "4 2"; do

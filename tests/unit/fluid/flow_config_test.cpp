@@ -67,6 +67,15 @@ TEST(FlowConfig, TrailingOnesAreAbsentDirections) {
   EXPECT_EQ(make_grid(read("high = [1]\ncells = [20]")).dimension, 1);
 }
 
+TEST(FlowConfig, BlocksFollowTheDimensionAndTheLineAlone) {
+  EXPECT_EQ(make_grid(read("high = [1, 1, 1]\ncells = [96, 97, 30]")).cuts[0], (std::vector<Index>{0, 48, 96}));
+  EXPECT_EQ(make_grid(read("high = [1, 1]\ncells = [128, 30]")).cuts[0], (std::vector<Index>{0, 64, 128}));
+  EXPECT_EQ(make_grid(read("high = [1]\ncells = [256]")).blocks_along(0), 4);
+  EXPECT_EQ(make_grid(read("high = [1]\ncells = [10000]")).blocks_along(0), 16);
+  EXPECT_EQ(make_grid(read("high = [1]\ncells = [819200]")).blocks_along(0), 200);
+  EXPECT_EQ(make_grid(read("high = [1]\ncells = [10000]\nblock = 100")).blocks_along(0), 100);
+}
+
 TEST(FlowConfig, ErrorsNameWhatIsMissing) {
   EXPECT_NE(scene_error_of("high = [1]\ncells = [20]\n[boundary]\nx_low = \"periodic\"").find("x_low and x_high"),
             std::string::npos);

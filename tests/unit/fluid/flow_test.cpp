@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fluid/initial_state.hpp"
+#include "fluid/totals.hpp"
 #include "parallel/comm.hpp"
 #include "tests/support/flow_case.hpp"
 
@@ -28,6 +29,7 @@ struct Spy : BlockSweeper {
     report.where = {1, 2, 0};
     return report;
   }
+  bool is_fluid(Block const&, Index, Index, Index) const override { return true; }
   Flow& flow;
   Index mine;
   State mark{1.5, 0, 0, 0, 2.5};
@@ -85,8 +87,43 @@ TEST(Flow, FindsOnlyItsOwnBlocks) {
   Flow flow(config, grid, {0, 1, 0, 1}, *comm);
   ASSERT_EQ(flow.blocks().size(), 2u);
   EXPECT_EQ(flow.find(2), &flow.blocks()[1]);
+  EXPECT_EQ(std::as_const(flow).find(2), &flow.blocks()[1]);
   EXPECT_EQ(flow.find(1), nullptr);
+  EXPECT_EQ(std::as_const(flow).find(1), nullptr);
   EXPECT_EQ(flow.owner(3), 1);
+}
+
+/// Every way in which a block can change after save(): by the kernel, by hand before it, by a sweeper, not at all.
+TEST(Flow, RestoreUndoesSweepsAndWritesAsOftenAsItIsAsked) {
+  auto const comm = parallel::serial();
+  FlowConfig const config = two_blocks();
+  auto const flow = testing::make_flow(config, *comm);
+  Spy spy(*flow, 0);
+  flow->set_sweeper(&spy);
+  fill(*flow, [&](CellIndex c) { return State{1 + 0.01 * c[0] * c[1], 0.1, 0, 0, c[0] < 8 || c[1] < 8 ? 2.5 : 3}; });
+  auto const cells = [&] {
+    parallel::Digest digest;
+    add_cells(digest, *flow);
+    return digest.hex();
+  };
+  flow->save();
+  std::string const before = cells();
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    if (attempt == 1) flow->find(2)->store(1, 1, 0, {5, 0, 0, 0, 9});
+    for (int d : {0, 1, 1, 0}) flow->sweep(d, 1e-3);
+    EXPECT_NE(cells(), before);
+    if (attempt == 2) flow->find(3)->store(1, 1, 0, {5, 0, 0, 0, 9});
+    flow->restore();
+    EXPECT_EQ(cells(), before) << attempt;
+    flow->restore();
+    EXPECT_EQ(cells(), before) << attempt;
+  }
+  flow->sweep(0, 1e-3);
+  std::string const later = cells();
+  flow->save();
+  flow->sweep(1, 1e-3);
+  flow->restore();
+  EXPECT_EQ(cells(), later);
 }
 
 TEST(BoundaryLedger, TakeGivesWhatCameSinceTheLastTake) {
