@@ -104,7 +104,16 @@ Real const* unpack(Block& block, CellRange const& range, Real const* in) {
 Ghosts::Ghosts(Grid const& grid, std::vector<int> const& owner, std::vector<Block>& blocks,
                Boundaries const& boundaries, parallel::Comm& comm)
     : blocks_(blocks), boundaries_(boundaries), comm_(comm), ends_(blocks.size()) {
-  for (int d = 0; d < grid.dimension; ++d) build(grid, owner, d);
+  for (int d = 0; d < grid.dimension; ++d) {
+    build(grid, owner, d);
+    Grid pencil;
+    pencil.dimension = grid.dimension;
+    auto const along = static_cast<std::size_t>(d);
+    Index const depth = blocks.empty() ? 1 : blocks.front().ghost()[along];
+    pencil.cells[along] = 2 * depth;
+    for (std::size_t e = 0; e < 3; ++e) pencil.cuts[e] = {0, pencil.cells[e]};
+    pencils_.emplace_back(pencil, 0, depth);
+  }
 }
 
 Ghosts::Partner& Ghosts::partner(Exchange& exchange, int rank) {
@@ -169,6 +178,28 @@ void Ghosts::look_at_end(Slab const& slab, int direction) {
   ends_[slab.block][static_cast<std::size_t>(slab.side)] = {holds_only(block, ghosts, first), true, first};
 }
 
+/// The ghosts of a uniform block at a side of the domain, without a look at the block, which is in no cache. False
+/// where they must be filled to know.
+bool Ghosts::find_end(Slab const& slab, int direction) {
+  if (!sleepy(slab.block) || !boundaries_.same_along(direction, slab.side)) return false;
+  State const& inside = *uniform_->state(slab.block);
+  auto known = std::find_if(tried_.begin(), tried_.end(),
+                            [&](Tried const& t) { return t.side == slab.side && same_bits(t.inside, inside); });
+  if (known == tried_.end()) {
+    Block& pencil = pencils_[static_cast<std::size_t>(direction)];
+    pencil.fill(inside);
+    boundaries_.fill(pencil, direction, slab.side);
+    CellRange const ghosts = ghost_slab(pencil, direction, slab.side);
+    State const first = pencil.load(ghosts.first[0], ghosts.first[1], ghosts.first[2]);
+    bool const one_state = holds_only(pencil, ghosts, first);
+    tried_.push_back({slab.side, inside, one_state ? std::optional(first) : std::nullopt});
+    known = tried_.end() - 1;
+  }
+  if (!known->ghosts) return false;
+  set_end(slab, direction, *known->ghosts);
+  return true;
+}
+
 void Ghosts::complete(std::size_t block, int direction) {
   if (!sleepy(block)) return;
   for (int side = 0; side < 2; ++side) {
@@ -204,7 +235,9 @@ void Ghosts::start(int direction, UniformBlocks const* uniform) {
     copy(from, inner_slab(from, direction, 1 - c.side), blocks_[c.to], ghost_slab(blocks_[c.to], direction, c.side));
     look_at_end({c.to, c.side}, direction);
   }
+  tried_.clear();
   for (Slab const& s : exchange.domain) {
+    if (find_end(s, direction)) continue;
     boundaries_.fill(blocks_[s.block], direction, s.side);
     look_at_end(s, direction);
   }

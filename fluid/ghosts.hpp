@@ -76,6 +76,7 @@ class Ghosts {
   Partner& partner(Exchange& exchange, int rank);
   void set_end(Slab const& slab, int direction, State const& state);
   void look_at_end(Slab const& slab, int direction);
+  bool find_end(Slab const& slab, int direction);
   bool sleepy(std::size_t block) const { return uniform_ && uniform_->state(block); }
 
   std::vector<Block>& blocks_;
@@ -84,6 +85,13 @@ class Ghosts {
   std::array<Exchange, 3> exchanges_;
   std::unique_ptr<parallel::Comm::Pending> pending_;
   std::vector<std::array<End, 2>> ends_;
+  std::vector<Block> pencils_;  ///< one per direction, on which laws of sides are tried
+  struct Tried {
+    int side;
+    State inside;
+    std::optional<State> ghosts;
+  };
+  std::vector<Tried> tried_;                ///< laws of the exchange under way
   UniformBlocks const* uniform_ = nullptr;  // of the exchange under way
 };
 

@@ -86,9 +86,12 @@ class LayerExchange {
     }
   }
 
-  /// Between neighbours; `at_domain(layer, direction, side)` fills the ghosts on a side of the domain.
-  template <class AtDomain>
-  void run(std::vector<CellLayer<T>>& layers, AtDomain at_domain) {
+  /// Between neighbours; `at_domain(layer, direction, side)` fills the ghosts on a side of the domain. Only from blocks
+  /// for which `fresh(position)` is true: the ghosts that look at the others hold their values already. Messages are
+  /// sent whole. Afterwards received(position) tells whose ghosts were written.
+  template <class AtDomain, class Fresh>
+  void run(std::vector<CellLayer<T>>& layers, AtDomain at_domain, Fresh fresh) {
+    received_.assign(layers.size(), 0);
     for (Partner& p : partners_) {
       T* out = p.out.data();
       for (Face const& f : p.sends) for_cells(layers[f.block], f, 0, [&](T& x) { *out++ = x; });
@@ -96,18 +99,25 @@ class LayerExchange {
     std::unique_ptr<parallel::Comm::Pending> pending;
     if (!partners_.empty()) pending = comm_.start(sends_, receives_, tag_);
     for (auto const& [to, from] : copies_) {
+      if (!fresh(from)) continue;
+      received_[to.block] = 1;
       buffer_.clear();
       for_cells(layers[from], {from, to.direction, 1 - to.side}, 0, [&](T& x) { buffer_.push_back(x); });
       T const* in = buffer_.data();
       for_cells(layers[to.block], to, -width_, [&](T& x) { x = *in++; });
     }
-    for (Face const& f : domain_) at_domain(layers[f.block], f.direction, f.side);
+    for (Face const& f : domain_)
+      if (fresh(f.block)) at_domain(layers[f.block], f.direction, f.side);
     if (pending) pending->finish();
     for (Partner& p : partners_) {
       T const* in = p.in.data();
-      for (Face const& f : p.receives) for_cells(layers[f.block], f, -width_, [&](T& x) { x = *in++; });
+      for (Face const& f : p.receives) {
+        for_cells(layers[f.block], f, -width_, [&](T& x) { x = *in++; });
+        received_[f.block] = 1;
+      }
     }
   }
+  bool received(std::size_t position) const { return received_[position]; }
   std::size_t bytes() const {
     std::size_t n = buffer_.capacity();
     for (Partner const& p : partners_) n += p.in.size() + p.out.size();
@@ -161,6 +171,7 @@ class LayerExchange {
   std::vector<parallel::Comm::Send> sends_;
   std::vector<parallel::Comm::Receive> receives_;
   std::vector<T> buffer_;
+  std::vector<char> received_;
 };
 
 }  // namespace brisance::fluid

@@ -62,8 +62,8 @@ void ShockSensor::update(std::vector<Block> const& blocks, Gas const& gas, std::
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     auto const [nx, ny, nz] = blocks[b].size();
     bool const walls = has_walls(blocks[b].id());
-    if (!changed_[b] && !walls) continue;
-    changed_[b] = walls;  // they move
+    changed_[b] = changed_[b] || walls;  // they move
+    if (!changed_[b]) continue;
     for (Index k = 0; k < nz; ++k)
       for (Index j = 0; j < ny; ++j) {
         Real* const row = pressure_[b].at(0, j, k);
@@ -74,14 +74,16 @@ void ShockSensor::update(std::vector<Block> const& blocks, Gas const& gas, std::
       }
   }
   // Beyond a side of the domain there is no pair: those ghosts keep their 0.
-  exchange_pressure_.run(pressure_, [](CellLayer<Real>&, int, int) {});
+  exchange_pressure_.run(
+      pressure_, [](CellLayer<Real>&, int, int) {}, [this](std::size_t b) { return changed_[b] != 0; });
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    bool const before = marked_[b];
-    if (before) marks_[b].fill(0);
+    if (!marked_[b] && !changed_[b] && !exchange_pressure_.received(b)) continue;  // as it was: no marks
+    if (marked_[b]) marks_[b].fill(0);
     marked_[b] = uniform(b) && !steep_at_ends(b) ? false : mark(b);
+    changed_[b] = 0;
   }
   // A ghost beyond a side of the domain takes the mark of the cell beside it.
-  exchange_marks_.run(marks_, [](CellLayer<std::uint8_t>& layer, int direction, int side) {
+  auto const at_domain = [](CellLayer<std::uint8_t>& layer, int direction, int side) {
     auto const d = static_cast<std::size_t>(direction);
     CellIndex begin{0, 0, 0}, end = layer.size();
     begin[d] = side == 0 ? -1 : layer.size()[d];
@@ -93,8 +95,11 @@ void ShockSensor::update(std::vector<Block> const& blocks, Gas const& gas, std::
           std::uint8_t* const ghost = layer.at(i, j, k);
           *ghost = ghost[inward];
         }
-  });
-  for (std::size_t b = 0; b < blocks.size(); ++b) marked_[b] = marked_[b] || any(marks_[b]);
+  };
+  // Ghosts that look at a block without marks are 0 already.
+  exchange_marks_.run(marks_, at_domain, [this](std::size_t b) { return marked_[b] != 0; });
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    marked_[b] = marked_[b] || (exchange_marks_.received(b) && any(marks_[b]));
 }
 
 /// Is a face steep between or beside the ghosts? In a uniform block no other can be.

@@ -38,10 +38,14 @@ class Boundaries {
   /// Fills the ghosts of a block whose `side` (0 low, 1 high) lies on the side of the domain.
   void fill(Block& block, int direction, int side) const { at(direction, side).fill(block, direction, side); }
   std::string const& law(int direction, int side) const { return at(direction, side).name; }
+  /// Do the ghosts follow from the cells of their pencil (and the time) alone, wherever along the side they are? Then
+  /// one pencil tells what a uniform block gets.
+  bool same_along(int direction, int side) const { return at(direction, side).same_along; }
 
  private:
   struct Side {
     std::string name;
+    bool same_along = true;
     std::function<void(Block&, int, int)> fill;
   };
   Side const& at(int direction, int side) const { return sides_[static_cast<std::size_t>(2 * direction + side)]; }
