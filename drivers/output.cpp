@@ -44,7 +44,7 @@ void Output::resume(double time) {
 }
 
 void Output::write_fields(std::string const& path) {
-  fluid::Flow const& flow = *world_.flow;
+  fluid::Flow& flow = *world_.flow;
   parallel::ArchiveWriter file(*world_.comm, path);
   auto const boxes = fluid::cell_boxes(flow);
   fluid::Grid const& grid = flow.grid();
@@ -57,7 +57,7 @@ void Output::write_fields(std::string const& path) {
   if (world_.cut_cells) {
     std::vector<double> fraction;
     Real const full = grid.cell_volume();
-    for (fluid::Block const& b : flow.blocks()) {
+    for (fluid::Block const& b : std::as_const(flow).blocks()) {
       fluid::CellIndex const first = b.first();
       for (Index k = 0; k < b.size()[2]; ++k)
         for (Index j = 0; j < b.size()[1]; ++j)
