@@ -138,6 +138,8 @@ bool ShockSensor::mark(std::size_t position) {
     steep_.resize(static_cast<std::size_t>(extent[0]) * static_cast<std::size_t>(extent[1] * extent[2]));
     std::uint8_t any = 0;
     std::uint8_t* out = steep_.data();
+    std::vector<std::uint8_t> row_is_steep;
+    row_is_steep.reserve(static_cast<std::size_t>(extent[1] * extent[2]));
     for (Index k = 0; k < extent[2]; ++k)
       for (Index j = 0; j < extent[1]; ++j, out += extent[0]) {
         Real const* const row = p.at(first[0], first[1] + j, first[2] + k);
@@ -147,11 +149,15 @@ bool ShockSensor::mark(std::size_t position) {
           some = static_cast<std::uint8_t>(some | out[i]);
         }
         any = static_cast<std::uint8_t>(any | some);
+        row_is_steep.push_back(some);
       }
     if (!any) continue;
     std::ptrdiff_t const face_step = d == 0 ? 1 : d == 1 ? extent[0] : std::ptrdiff_t{extent[0]} * extent[1];
+    std::ptrdiff_t const row_step = d == 0 ? 0 : d == 1 ? 1 : extent[1];
     for (Index k = 0; k < p.size()[2]; ++k)
       for (Index j = 0; j < p.size()[1]; ++j) {
+        std::uint8_t const* const steep_row = row_is_steep.data() + (j + std::ptrdiff_t{extent[1]} * k);
+        if (!(steep_row[0] | steep_row[row_step] | steep_row[2 * row_step] | steep_row[3 * row_step])) continue;
         std::uint8_t const* const face =
             steep_.data() + std::ptrdiff_t{extent[0]} * (j + std::ptrdiff_t{extent[1]} * k);
         std::uint8_t* const row = marks.at(0, j, k);
