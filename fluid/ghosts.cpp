@@ -109,7 +109,7 @@ void Ghosts::build(Grid const& grid, std::vector<int> const& owner, int directio
   }
 }
 
-void Ghosts::start(int direction) {
+void Ghosts::start(int direction, Real time) {
   Exchange& exchange = exchanges_[static_cast<std::size_t>(direction)];
   for (Partner& p : exchange.partners) {
     Real* out = p.out.data();
@@ -120,7 +120,7 @@ void Ghosts::start(int direction) {
     Block const& from = blocks_[c.from];
     copy(from, inner_slab(from, direction, 1 - c.side), blocks_[c.to], ghost_slab(blocks_[c.to], direction, c.side));
   }
-  for (Slab const& s : exchange.domain) boundaries_.fill(blocks_[s.block], direction, s.side);
+  for (Slab const& s : exchange.domain) boundaries_.fill(blocks_[s.block], direction, s.side, time);
 }
 
 void Ghosts::finish(int direction) {

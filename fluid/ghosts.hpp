@@ -19,8 +19,8 @@ class Ghosts {
          parallel::Comm& comm);
 
   /// Sends what other ranks need and fills the ghosts that depend on this rank alone. Afterwards the cells of `ready`
-  /// blocks may be changed: nothing reads them any more.
-  void start(int direction);
+  /// blocks may be changed: nothing reads them any more. `time`: of the laws of the sides, s.
+  void start(int direction, Real time = 0);
   /// Waits for the messages of start() and fills the other ghosts.
   void finish(int direction);
 

@@ -37,10 +37,10 @@ void Flow::sweep_block(Block& block, int direction, Real dt, SweepReport& total)
     }
 }
 
-SweepReport Flow::sweep(int direction, Real dt) {
+SweepReport Flow::sweep(int direction, Real dt, Real middle) {
   SweepReport total;
   if (sweeper_) sweeper_->prepare(direction, dt);
-  ghosts_.start(direction);
+  ghosts_.start(direction, middle);
   for (std::size_t const b : ghosts_.ready(direction)) sweep_block(blocks_[b], direction, dt, total);
   ghosts_.finish(direction);
   for (std::size_t const b : ghosts_.waiting(direction)) sweep_block(blocks_[b], direction, dt, total);

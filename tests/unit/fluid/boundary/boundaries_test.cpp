@@ -51,7 +51,7 @@ TYPED_TEST(BoundaryLaw, FillsItsSideFromItsOwnPencilAndNothingElse) {
             } else if (across && ghost >= 0) {
               CellIndex from = c;
               from[s] = side == 0 ? law.source(ghost) : 8 - law.source(ghost);
-              expected = law(tagged(from[0], from[1], from[2]), d);
+              expected = law(tagged(from[0], from[1], from[2]), {d, side, c});
             }
             ASSERT_EQ(block.load(i, j, k), expected) << d << " " << side << ": " << i << " " << j << " " << k;
           }
@@ -61,8 +61,8 @@ TYPED_TEST(BoundaryLaw, FillsItsSideFromItsOwnPencilAndNothingElse) {
 TEST(Reflecting, NegatesOnlyTheNormalMomentumOfTheMirroredCell) {
   Reflecting const wall;
   EXPECT_EQ(wall.source(2), 2);
-  EXPECT_EQ(wall({1, 2, 3, 4, 5}, 0), (State{1, -2, 3, 4, 5}));
-  EXPECT_EQ(wall({1, 2, 3, 4, 5}, 2), (State{1, 2, 3, -4, 5}));
+  EXPECT_EQ(wall({1, 2, 3, 4, 5}, {0, 0}), (State{1, -2, 3, 4, 5}));
+  EXPECT_EQ(wall({1, 2, 3, 4, 5}, {2, 1}), (State{1, 2, 3, -4, 5}));
 }
 
 TEST(Boundaries, TakeTheirLawAndStateFromTheScene) {
@@ -70,13 +70,13 @@ TEST(Boundaries, TakeTheirLawAndStateFromTheScene) {
   config.boundary.x_high = "outflow";
   config.boundary.y_low = "inflow";
   config.inflow.y_low = GasState{2, 3, {0.5, 0.25, 0}};
-  Boundaries const boundaries(config, make_gas(config));
+  Grid const grid = make_grid(config);
+  Boundaries const boundaries(config, make_gas(config), grid);
   EXPECT_EQ(boundaries.law(0, 0), "reflecting");
   EXPECT_EQ(boundaries.law(0, 1), "outflow");
-  Grid const grid = make_grid(config);
   Block block(grid, 0, 3);
   block.fill({1, 0, 0, 0, 2.5});
-  boundaries.fill(block, 1, 0);
+  boundaries.fill(block, 1, 0, 0);
   State const u = block.load(4, -3, 0);
   EXPECT_EQ(u[0], 2);
   EXPECT_EQ(u[1], 1);
