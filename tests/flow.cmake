@@ -1,5 +1,6 @@
 brisance_test(fluid_domain_unit
   SOURCES unit/fluid/grid/grid_test.cpp unit/fluid/grid/block_test.cpp unit/fluid/boundary/boundaries_test.cpp
+          unit/fluid/boundary/far_field_test.cpp unit/fluid/boundary/inflow_test.cpp unit/fluid/boundary/moving_wall_test.cpp
           unit/fluid/flow_config_test.cpp unit/fluid/flow_test.cpp unit/fluid/time_step_test.cpp
           unit/fluid/gauges/gauge_stencil_test.cpp unit/fluid/gauges/gauge_history_test.cpp
   LINKS brisance::fluid
@@ -26,3 +27,4 @@ brisance_test(fluid_gauges
   SOURCES verification/fluid/gauge_test.cpp support/riemann.cpp
   LINKS brisance::fluid
   LABELS verification)
+brisance_test(fluid_sides SOURCES verification/fluid/sides_test.cpp LINKS brisance::fluid LABELS verification)

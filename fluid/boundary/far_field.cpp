@@ -25,8 +25,10 @@ State changed(Seen const& from, Real density, Real speed, Real pressure, GhostCe
   return gas.conserved(density, velocity, pressure);
 }
 
-/// Ideal or stiffened: R+ = u + k c of the inside meets R- = u - k c of the ambient state, k = 2/Gamma.
-State by_invariants(Seen const& inside, Seen const& ambient, GhostCell const& ghost, Gas const& gas) {
+/// Ideal or stiffened: the pressure and the speed at which both states meet when each changes along its isentrope, so
+/// that u + k c of the inside and u - k c of the ambient state are kept, k = 2/Gamma. Between them may lie a contact:
+/// hot gas at ambient pressure leaves without a wave.
+State by_isentropic_waves(Seen const& inside, Seen const& ambient, GhostCell const& ghost, Gas const& gas) {
   Real const k = 2 / gas.kappa();
   auto const on_isentrope = [&](Seen const& from, Real speed, Real sound) {
     if (speed == from.speed && sound == from.sound) return from.conserved;
@@ -42,13 +44,19 @@ State by_invariants(Seen const& inside, Seen const& ambient, GhostCell const& gh
     return entering < 0 ? on_isentrope(ambient, entering / (1 + k), -entering / (1 + k)) : State{};
   };
   if (!(ambient.sound > 0)) return sonic_exit();
-  // Written so that equal states meet in exactly themselves.
-  Real const speed = 0.5 * (inside.speed + ambient.speed) + 0.5 * k * (inside.sound - ambient.sound);
-  Real const sound = 0.5 * (inside.sound + ambient.sound) + 0.5 / k * (inside.speed - ambient.speed);
-  if (!(sound > 0)) return leaving > 0 ? sonic_exit() : sonic_entry();  // they part, vacuum between them
-  if (speed >= sound) return sonic_exit();
-  if (speed <= -sound) return sonic_entry();
-  return on_isentrope(speed > 0 ? inside : ambient, speed, sound);
+  Real const approach = k * (inside.sound + ambient.sound) + (inside.speed - ambient.speed);
+  if (!(approach > 0)) return leaving > 0 ? sonic_exit() : sonic_entry();  // they part, vacuum between them
+  // Sound speeds on both isentropes at the common pressure. Equal states give exactly themselves.
+  Real const p_ratio =
+      (gas.pressure(inside.conserved) + gas.curve.stiffness) / (gas.pressure(ambient.conserved) + gas.curve.stiffness);
+  Real const c_ratio = std::pow(p_ratio, 1 / (k * gas.gamma));
+  Real const share_in = approach / (k * (inside.sound + ambient.sound * c_ratio));
+  Real const sound_in = share_in * inside.sound, speed_in = inside.speed + k * (inside.sound - sound_in);
+  if (speed_in >= sound_in) return sonic_exit();
+  if (speed_in > 0) return on_isentrope(inside, speed_in, sound_in);
+  Real const share_out = approach / (k * (ambient.sound + inside.sound / c_ratio));
+  Real const sound_out = share_out * ambient.sound, speed_out = ambient.speed - k * (ambient.sound - sound_out);
+  return speed_out <= -sound_out ? sonic_entry() : on_isentrope(ambient, speed_out, sound_out);
 }
 
 State by_linear_waves(Seen const& inside, Seen const& ambient, GhostCell const& ghost, Gas const& gas) {
@@ -73,7 +81,7 @@ State FarField::operator()(State const& u, GhostCell const& ghost) const {
   bool const gas_outside = outside.sound > 0;
   if (gas_outside && outside.speed <= -outside.sound) return ambient;
   if (inside.speed >= inside.sound) return u;
-  if (!gas.curve.exponential()) return by_invariants(inside, outside, ghost, gas);
+  if (!gas.curve.exponential()) return by_isentropic_waves(inside, outside, ghost, gas);
   return gas_outside ? by_linear_waves(inside, outside, ghost, gas) : u;
 }
 

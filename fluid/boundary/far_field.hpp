@@ -8,7 +8,7 @@ namespace brisance::fluid {
 /// All ghosts hold the state at the side between the last cell and the ambient state, both waves taken as isentropic:
 /// by Riemann invariants (ideal and stiffened gas), else by linear characteristics at the last cell. Supersonic exit:
 /// as outflow; supersonic entry: the ambient state. A cell equal to the ambient state gives that state bit for bit.
-/// Source: theory/fluid.md 6.
+/// Source: theory/fluid.md 6, whose formula for ideal gas is this one where both entropies agree.
 struct FarField {
   static constexpr char const* name = "far_field";
   static constexpr bool same_for_all_ghosts = true;
