@@ -159,22 +159,26 @@ TEST(FlowConfig, ErrorsOfSidesNameWhatIsWrong) {
     EXPECT_NE(error.find(part), std::string::npos) << error;
   };
   says("[boundary]\nx_low = \"moving_wall\"", "[fluid.moving_wall.x_low]");
-  says("[boundary]\nx_low = \"inflow\"\n[inflow.x_low]\nhistory = [{ time = 1, density = 1, pressure = 1 },"
-       "{ time = 1, density = 1, pressure = 1 }]",
-       "times must ascend");
-  says("[boundary]\nx_low = \"inflow\"\n[inflow.x_low]\ndensity = 2\nhistory = [{ time = 1, density = 1, "
-       "pressure = 1 }]",
-       "either a constant");
-  says("[boundary]\nx_low = \"inflow\"\n[inflow.x_low]\ndensity = 2\nfront = { point = [0, 0], normal = [0, 0], "
-       "density = 1, pressure = 1 }",
-       "`normal` is zero");
+  says(
+      "[boundary]\nx_low = \"inflow\"\n[inflow.x_low]\nhistory = [{ time = 1, density = 1, pressure = 1 },"
+      "{ time = 1, density = 1, pressure = 1 }]",
+      "times must ascend");
+  says(
+      "[boundary]\nx_low = \"inflow\"\n[inflow.x_low]\ndensity = 2\nhistory = [{ time = 1, density = 1, "
+      "pressure = 1 }]",
+      "either a constant");
+  says(
+      "[boundary]\nx_low = \"inflow\"\n[inflow.x_low]\ndensity = 2\nfront = { point = [0, 0], normal = [0, 0], "
+      "density = 1, pressure = 1 }",
+      "`normal` is zero");
   says("[[patch]]\nside = \"x_low\"", "needs `low` and `high`");
   says("[[patch]]\nside = \"z_low\"\nlow = [0, 0]\nhigh = [1, 1]", "normal of z_low");
   says("[[patch]]\nside = \"x_low\"\nlaw = \"outflow\"\nlow = [0, 0.51]\nhigh = [0, 0.52]", "no centre of a face");
   says("[[patch]]\nside = \"x_low\"\nlow = [0, 0]\nhigh = [1, 1]", "[fluid.patch[0].inflow]");
-  says("[boundary]\nx_low = \"periodic\"\nx_high = \"periodic\"\n[[patch]]\nside = \"x_low\"\nlaw = "
-       "\"outflow\"\nlow = [0, 0]\nhigh = [1, 1]",
-       "x_low is periodic");
+  says(
+      "[boundary]\nx_low = \"periodic\"\nx_high = \"periodic\"\n[[patch]]\nside = \"x_low\"\nlaw = "
+      "\"outflow\"\nlow = [0, 0]\nhigh = [1, 1]",
+      "x_low is periodic");
 }
 
 TEST(FlowConfig, VacuumThresholdsFollowTheAmbientStateOrElseTheLargestRegion) {
