@@ -25,9 +25,9 @@ State changed(Seen const& from, Real density, Real speed, Real pressure, GhostCe
   return gas.conserved(density, velocity, pressure);
 }
 
-/// Ideal or stiffened: the pressure and the speed at which both states meet when each changes along its isentrope, so
-/// that u + k c of the inside and u - k c of the ambient state are kept, k = 2/Gamma. Between them may lie a contact:
-/// hot gas at ambient pressure leaves without a wave.
+/// Ideal or stiffened. Each wave keeps u +- k c of the gas it runs through, k = 2/Gamma: u + k c of the inside leaves.
+/// Exit: what enters is as if the gas of the last cell went on to the ambient pressure and speed. So neither hot gas at
+/// that pressure nor a wave in it sends anything back. Entry: gas of the ambient isentrope meets that of the inside.
 State by_isentropic_waves(Seen const& inside, Seen const& ambient, GhostCell const& ghost, Gas const& gas) {
   Real const k = 2 / gas.kappa();
   auto const on_isentrope = [&](Seen const& from, Real speed, Real sound) {
@@ -44,28 +44,31 @@ State by_isentropic_waves(Seen const& inside, Seen const& ambient, GhostCell con
     return entering < 0 ? on_isentrope(ambient, entering / (1 + k), -entering / (1 + k)) : State{};
   };
   if (!(ambient.sound > 0)) return sonic_exit();
-  Real const approach = k * (inside.sound + ambient.sound) + (inside.speed - ambient.speed);
-  if (!(approach > 0)) return leaving > 0 ? sonic_exit() : sonic_entry();  // they part, vacuum between them
-  // Sound speeds on both isentropes at the common pressure. Equal states give exactly themselves.
+  // Sound speed of one gas at the pressure of the other, over its own. Equal states give exactly themselves below.
   Real const p_ratio =
       (gas.pressure(inside.conserved) + gas.curve.stiffness) / (gas.pressure(ambient.conserved) + gas.curve.stiffness);
   Real const c_ratio = std::pow(p_ratio, 1 / (k * gas.gamma));
-  Real const share_in = approach / (k * (inside.sound + ambient.sound * c_ratio));
-  Real const sound_in = share_in * inside.sound, speed_in = inside.speed + k * (inside.sound - sound_in);
-  if (speed_in >= sound_in) return sonic_exit();
-  if (speed_in > 0) return on_isentrope(inside, speed_in, sound_in);
-  Real const share_out = approach / (k * (ambient.sound + inside.sound / c_ratio));
-  Real const sound_out = share_out * ambient.sound, speed_out = ambient.speed - k * (ambient.sound - sound_out);
-  return speed_out <= -sound_out ? sonic_entry() : on_isentrope(ambient, speed_out, sound_out);
+  Real const relaxed = inside.sound / c_ratio;  // the inside at ambient pressure
+  Real const speed_exit = 0.5 * (inside.speed + ambient.speed) + 0.5 * k * (inside.sound - relaxed);
+  Real const sound_exit = 0.5 * (inside.sound + relaxed) + 0.5 / k * (inside.speed - ambient.speed);
+  if (speed_exit >= 0) return speed_exit >= sound_exit ? sonic_exit() : on_isentrope(inside, speed_exit, sound_exit);
+  Real const approach = k * (inside.sound + ambient.sound) + (inside.speed - ambient.speed);
+  if (!(approach > 0)) return sonic_entry();  // they part, vacuum between them
+  Real const sound_entry = ambient.sound * (approach / (k * (ambient.sound + relaxed)));
+  Real const speed_entry = ambient.speed - k * (ambient.sound - sound_entry);
+  return speed_entry <= -sound_entry ? sonic_entry() : on_isentrope(ambient, speed_entry, sound_entry);
 }
 
+/// Other equations of state: the same with linear waves, of the impedance of the last cell (exit) or of both gases.
 State by_linear_waves(Seen const& inside, Seen const& ambient, GhostCell const& ghost, Gas const& gas) {
   Real const p_in = gas.pressure(inside.conserved), p_out = gas.pressure(ambient.conserved);
-  Real const impedance = inside.conserved[0] * inside.sound;
-  Real const rise = 0.5 * (p_in - p_out + impedance * (inside.speed - ambient.speed));
-  Real const pressure = p_out + rise, speed = ambient.speed + rise / impedance;
-  Seen const& from = speed > 0 ? inside : ambient;
-  Real const p_from = speed > 0 ? p_in : p_out;
+  Real const z_in = inside.conserved[0] * inside.sound, z_out = ambient.conserved[0] * ambient.sound;
+  Real const rise = p_in - p_out + z_in * (inside.speed - ambient.speed);
+  bool const exit = ambient.speed + 0.5 * rise / z_in >= 0;
+  Real const z_beyond = exit ? z_in : z_out;
+  Real const pressure = p_out + z_beyond / (z_in + z_beyond) * rise, speed = ambient.speed + rise / (z_in + z_beyond);
+  Seen const& from = exit ? inside : ambient;
+  Real const p_from = exit ? p_in : p_out;
   if (speed == from.speed && pressure == p_from) return from.conserved;
   Real const density = from.conserved[0] + (pressure - p_from) / (from.sound * from.sound);
   bool const admissible = density > gas.vacuum_density && pressure > gas.reference_pressure(density);
