@@ -44,40 +44,34 @@ Boundaries::Law Boundaries::make(LawOfSide const& given, FlowConfig const& confi
   auto const changing = [&where](auto const& law) {
     return [law, where](Block& block, int d, int s, Real time) { fill_ghosts(law.at(time), block, d, s, where); };
   };
-  if (given.name == Reflecting::name) return {given.name, constant(Reflecting{}), {}, true};
-  if (given.name == Outflow::name) return {given.name, constant(Outflow{}), {}, true};
+  if (given.name == Reflecting::name) return {given.name, constant(Reflecting{}), {}};
+  if (given.name == Outflow::name) return {given.name, constant(Outflow{}), {}};
   if (given.name == FarField::name)
-    return {given.name,
-            constant(FarField{gas, state_of(given.far_field ? *given.far_field : config.ambient, gas)}),
-            {},
-            true};
+    return {
+        given.name, constant(FarField{gas, state_of(given.far_field ? *given.far_field : config.ambient, gas)}), {}};
   if (given.name == MovingWall::name) {
-    if (given.wall->history.empty()) return {given.name, constant(MovingWall{given.wall->speed}), {}, true};
-    return {given.name, changing(wall_history(*given.wall)), {}, false};
+    if (given.wall->history.empty()) return {given.name, constant(MovingWall{given.wall->speed}), {}};
+    return {given.name, changing(wall_history(*given.wall)), {}};
   }
-  if (given.name != Inflow::name) return {given.name, {}, {}, true};  // periodic: never asked
+  if (given.name != Inflow::name) return {given.name, {}, {}};  // periodic: never asked
   if (given.inflow->front) {
     MovingFront const front = front_of(*given.inflow, gas, grid);
-    return {given.name, changing(front),
-            [front, gas](int d, Real, Real) {
+    return {given.name, changing(front), [front, gas](int d, Real, Real) {
               return max(signal(front.start.ahead, d, gas), signal(front.start.behind, d, gas));
-            },
-            false};
+            }};
   }
   if (!given.inflow->history.empty()) {
     InflowHistory const history = history_of(*given.inflow, gas);
-    return {given.name, changing(history),
-            [history](int d, Real from, Real to) {
+    return {given.name, changing(history), [history](int d, Real from, Real to) {
               Real largest =
                   max(signal(history.at(from).given, d, history.gas), signal(history.at(to).given, d, history.gas));
               for (Real const t : history.table.times)
                 if (t > from && t < to) largest = max(largest, signal(history.at(t).given, d, history.gas));
               return largest;
-            },
-            false};
+            }};
   }
   State const state = state_of(*given.inflow, gas);
-  return {given.name, constant(Inflow{state}), [state, gas](int d, Real, Real) { return signal(state, d, gas); }, true};
+  return {given.name, constant(Inflow{state}), [state, gas](int d, Real, Real) { return signal(state, d, gas); }};
 }
 
 Boundaries::Boundaries(FlowConfig const& config, Gas const& gas, Grid const& grid) {
@@ -95,11 +89,6 @@ void Boundaries::fill(Block& block, int direction, int side, Real time) const {
   Side const& here = at(direction, side);
   here.whole.fill(block, direction, side, time);
   for (Law const& patch : here.patches) patch.fill(block, direction, side, time);
-}
-
-bool Boundaries::steady(int direction, int side) const {
-  Side const& here = at(direction, side);
-  return here.whole.steady && here.patches.empty();
 }
 
 Real Boundaries::signal_speed(int direction, Real from, Real to) const {

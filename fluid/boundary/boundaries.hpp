@@ -53,8 +53,6 @@ class Boundaries {
   /// the middle of the step, s (theory/fluid.md 6).
   void fill(Block& block, int direction, int side, Real time) const;
   std::string const& law(int direction, int side) const { return at(direction, side).whole.name; }
-  /// Depend the ghosts of this side on its cells alone, not on time or place?
-  bool steady(int direction, int side) const;
   /// Largest |u_d| + c of the states given at the sides along `direction` between two times, m/s; 0 without any.
   Real signal_speed(int direction, Real from, Real to) const;
 
@@ -63,7 +61,6 @@ class Boundaries {
     std::string name;
     std::function<void(Block&, int, int, Real)> fill;
     std::function<Real(int, Real, Real)> signal;  // of the states it gives, if it gives any
-    bool steady = true;
   };
   struct Side {
     Law whole;

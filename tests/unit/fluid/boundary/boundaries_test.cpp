@@ -110,8 +110,6 @@ TEST(Boundaries, APatchTakesItsFacesAndLeavesTheRestToTheSide) {
         bool const covered = square((i + 0.5) / 8 - 0.25) + square((j + 0.5) / 8 - 0.5) < square(0.2);
         EXPECT_EQ(block.load(i, j, k)[0], covered ? 3 : 1) << i << " " << j << " " << k;
       }
-  EXPECT_TRUE(boundaries.steady(2, 0));
-  EXPECT_FALSE(boundaries.steady(2, 1));
   EXPECT_DOUBLE_EQ(boundaries.signal_speed(2, 0, 1), 4 + std::sqrt(1.4 * 2 / 3));
   EXPECT_EQ(boundaries.signal_speed(0, 0, 1), 0);
 }
