@@ -32,3 +32,7 @@ brisance_test(fluid_sides
   SOURCES verification/fluid/leaving_waves_test.cpp verification/fluid/entering_waves_test.cpp
   LINKS brisance::fluid
   LABELS verification)
+brisance_test(fluid_given_sides
+  SOURCES verification/fluid/given_sides_test.cpp
+  LINKS brisance::drivers
+  LABELS verification)

@@ -120,6 +120,52 @@ TEST(LeavingWaves, AWaveInHotGasLeavesToo) {
   }
 }
 
+/// A sound pulse of Mach 1e-4 in water or in detonation products.
+void expect_sound_to_leave(std::string const& name, GasConfig const& law, GasState const& rest, Real limit) {
+  FlowConfig config = unit_box(1, 200);
+  config.gas = law;
+  config.ambient = rest;
+  config.boundary.x_low = config.boundary.x_high = "far_field";
+  auto const flow = make_flow(config, comm());
+  Gas const& gas = flow->gas();
+  Real const sound = gas.sound_speed(gas.conserved(rest.density, {}, rest.pressure)), amplitude = 1e-4;
+  fill(*flow, [&](CellIndex c) {
+    return line_mean(flow->grid(), c[0], [&](Real x) {
+      Real const u = sound * amplitude * std::exp(-square((x - 0.5) / 0.08));
+      return gas.conserved(rest.density * (1 + u / sound), {u, 0, 0}, rest.pressure + rest.density * sound * u);
+    });
+  });
+  FlowClock clock;
+  advance(*flow, clock, {.end = 0.85 / sound, .cfl = 0.8});
+  Real largest = 0;
+  for_cells(*flow, [&](CellIndex, State const& u) { largest = max(largest, std::abs(u[1] / u[0])); });
+  EXPECT_TRUE(evidence::at_most("F28", "sound leaves through far_field", name + "; A 0.0001; order 5", "residue / A",
+                                largest / (sound * amplitude), limit));
+}
+
+TEST(LeavingWaves, SoundLeavesInWaterAndDetonationProducts) {
+  GasConfig water, products;
+  water.law = "stiffened", water.gamma = 4.4, water.stiffness = 6e8;
+  products.law = "jwl";
+  expect_sound_to_leave("water", water, {1000, 1e5, {}}, 1e-4);
+  expect_sound_to_leave("products of TNT", products, {1000, 3e9, {}}, 1e-4);  // linear waves: a residue of order A
+}
+
+/// A tube with one closed end, full of gas at ten times the pressure outside, after twenty passages of sound. An
+/// outflow would keep it for ever: it knows no other pressure.
+TEST(LeavingWaves, FarFieldHoldsThePressureOfTheAmbientState) {
+  FlowConfig config = unit_box(1, 100);
+  config.boundary.x_high = "far_field";
+  auto const flow = make_flow(config, comm());
+  fill(*flow, [&](CellIndex) { return flow->gas().conserved(std::pow(10, 1 / wave_gamma), {}, 10); });
+  FlowClock clock;
+  advance(*flow, clock, {.end = 20 / rest_sound, .cfl = 0.8});
+  Real largest = 0;
+  for_cells(*flow, [&](CellIndex, State const& u) { largest = max(largest, std::abs(flow->gas().pressure(u) - 1)); });
+  EXPECT_TRUE(evidence::at_most("F28", "closed tube empties through far_field", "order 5; 100 cells; 20 passages",
+                                "pressure deviation / ambient", largest, 1e-9));
+}
+
 /// A circular pulse of 1e-3 in pressure around the middle of the unit square, in that square or a larger one.
 class Ring {
  public:
