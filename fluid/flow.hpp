@@ -66,9 +66,9 @@ class Flow {
   }
   SweepOptions const& options() const { return options_; }
 
-  /// Collective. Cell means at t -> after one sweep along `direction`, in place, ghosts included. `middle`: time at which
-  /// the sides are taken, t + dt/2, s. The report of this rank: health bits or-ed, `where` = global index of the first
-  /// bad cell (lowest id), ends of blocks left empty.
+  /// Collective. Cell means at t -> after one sweep along `direction`, in place, ghosts included. `middle`: time at
+  /// which the sides are taken, t + dt/2, s. The report of this rank: health bits or-ed, `where` = global index of the
+  /// first bad cell (lowest id), ends of blocks left empty.
   SweepReport sweep(int direction, Real dt, Real middle = 0);
 
   /// Keeps the cells and the ledger for restore(): the state to which a rejected pair of steps returns.
