@@ -27,7 +27,6 @@ brisance_test(fluid_gauges
   SOURCES verification/fluid/gauge_test.cpp support/riemann.cpp
   LINKS brisance::fluid
   LABELS verification)
-brisance_test(fluid_sides SOURCES verification/fluid/sides_test.cpp LINKS brisance::fluid LABELS verification)
 brisance_test(fluid_sides
   SOURCES verification/fluid/leaving_waves_test.cpp verification/fluid/entering_waves_test.cpp
   LINKS brisance::fluid

@@ -28,7 +28,6 @@ struct Spy : BlockSweeper {
     report.where = {1, 2, 0};
     return report;
   }
-  bool is_fluid(Block const&, Index, Index, Index) const override { return true; }
   Flow& flow;
   Index mine;
   State mark{1.5, 0, 0, 0, 2.5};
