@@ -5,6 +5,7 @@
 
 #include "core/base/errors.hpp"
 #include "coupling/cut_cells/cell_geometry.hpp"
+#include "fluid/boundary/boundary_config.hpp"
 #include "fluid/cell_fields.hpp"
 #include "fluid/initial_state.hpp"
 
@@ -143,6 +144,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (scene.fluid) {
     fluid::check(*scene.fluid);
     grid = fluid::make_grid(*scene.fluid);
+    fluid::check_walls(*scene.fluid, *grid, scene.end_time);
     w.dimension = grid->dimension;
     fluid::check(scene.output.gauge, *scene.fluid, *grid, scene.end_time);
     fluid::check_cell_fields(scene.output.fields, *scene.fluid, grid->dimension, scene.output.at);

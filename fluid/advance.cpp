@@ -15,13 +15,13 @@ struct PairReport {
   Real courant = 0;
 };
 
-PairReport sweep_pair(Flow& flow, std::int64_t step, Real dt) {
+PairReport sweep_pair(Flow& flow, FlowClock const& clock, Real dt) {
   Grid const& grid = flow.grid();
   PairReport pair;
   for (int s = 0; s < steps_per_pair(grid.dimension); ++s) {
     flow.begin_step();
-    for (int const d : directions(grid.dimension, step + s)) {
-      SweepReport const report = flow.sweep(d, dt);
+    for (int const d : directions(grid.dimension, clock.step + s)) {
+      SweepReport const report = flow.sweep(d, dt, clock.time + (s + 0.5) * dt);
       pair.health |= report.health;
       if (report.health) pair.where = std::min(pair.where, grid.cell_id(report.where));
       pair.fallback_faces += report.fallback_faces;
@@ -62,11 +62,12 @@ void advance(Flow& flow, FlowClock& clock, AdvanceLimits const& limits) {
     std::array<Real, 3> speeds = signal_speeds(flow);
     flow.comm().max(speeds);
     Real const cfl = courant_number(grid.dimension, clock.step, limits.cfl);
-    Real const nominal = min(limits.dt_max, acoustic_time_step(grid, speeds, cfl));
+    Real const nominal =
+        min(limits.dt_max, min(acoustic_time_step(grid, speeds, cfl), side_time_step(flow, clock.time, cfl)));
     flow.save();
     for (;;) {
       PairStep const step = shorten(clock.time, limits.end, clock.retry.factor() * nominal, steps);
-      PairReport pair = sweep_pair(flow, clock.step, step.dt);
+      PairReport pair = sweep_pair(flow, clock, step.dt);
       agree(pair, flow.comm());
       if (pair.health != 0) {
         flow.restore();

@@ -10,7 +10,7 @@ void Euler::join(Plan& plan) {
     plan.at(Stage::sweeps, [this, sweep](Clock const& clock) {
       int const direction = directions(flow_.grid().dimension, clock.step)[static_cast<std::size_t>(sweep)];
       if (sweep == 0) flow_.begin_step();
-      SweepReport const report = flow_.sweep(direction, clock.dt);
+      SweepReport const report = flow_.sweep(direction, clock.dt, clock.time + 0.5 * clock.dt);
       fallback_faces_ += report.fallback_faces;
       if (report.health != 0 && report_.health == 0) report_.where = report.where;
       report_.health |= report.health;
@@ -49,7 +49,8 @@ void Euler::join(Plan& plan) {
 Real Euler::acoustic_limit(Clock const& clock) {
   std::array<Real, 3> const speeds = signal_speeds(flow_, volume_);
   // The slow start is part of the rule; the minimum over ranks is taken by the simulation.
-  return acoustic_time_step(flow_.grid(), speeds, courant_number(flow_.grid().dimension, clock.step, config_.cfl));
+  Real const cfl = courant_number(flow_.grid().dimension, clock.step, config_.cfl);
+  return min(acoustic_time_step(flow_.grid(), speeds, cfl), side_time_step(flow_, clock.time, cfl));
 }
 
 Verdict Euler::judge() const {

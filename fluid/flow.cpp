@@ -22,7 +22,7 @@ Flow::Flow(FlowConfig const& config, Grid grid, std::vector<int> owner, parallel
       owner_(std::move(owner)),
       comm_(comm),
       blocks_(owned_blocks(grid_, owner_, comm.rank(), ghost_depth(order_))),
-      boundaries_(config, gas_),
+      boundaries_(config, gas_, grid_),
       ghosts_(grid_, owner_, blocks_, boundaries_, comm),
       options_(config.options()),
       sleep_(config.sleep),

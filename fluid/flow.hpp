@@ -84,11 +84,12 @@ class Flow {
   };
   Saved const& saved_by_sleep() const { return saved_by_sleep_; }
 
-  /// Collective. Cell means at t -> after one sweep along `direction`, in place, ghosts included. The report of this
-  /// rank: health bits or-ed, `where` = global index of the first bad cell (lowest id), ends of blocks left empty.
+  /// Collective. Cell means at t -> after one sweep along `direction`, in place, ghosts included. `middle`: time at
+  /// which the sides are taken, t + dt/2, s. The report of this rank: health bits or-ed, `where` = global index of the
+  /// first bad cell (lowest id), ends of blocks left empty.
   /// A block that this sweep would leave as it is, bit by bit, sleeps (theory/fluid.md 7): same cells, report and
   /// ledger.
-  SweepReport sweep(int direction, Real dt);
+  SweepReport sweep(int direction, Real dt, Real middle = 0);
 
   /// Keeps the cells and the ledger for restore(): the state to which a rejected pair of steps returns. The cells stay
   /// where they are until they are about to change.

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "core/base/errors.hpp"
+#include "fluid/boundary/boundary_config.hpp"
 #include "fluid/flux/sweep.hpp"
 
 namespace brisance::fluid {
 namespace {
 
-constexpr char const* side_names[6] = {"x_low", "x_high", "y_low", "y_high", "z_low", "z_high"};
 constexpr char axis_names[] = "xyz";
 
 std::string place(Location const& at, std::string const& what) {
@@ -76,32 +76,6 @@ void GasConfig::keys(Keys<GasConfig>& k) {
   k("jwl", &GasConfig::jwl, "", "jwl: parameters of the detonation products; not given: TNT");
 }
 
-std::string const& BoundaryConfig::side(int d, int side) const {
-  std::string const* const all[6] = {&x_low, &x_high, &y_low, &y_high, &z_low, &z_high};
-  return *all[2 * d + side];
-}
-
-void BoundaryConfig::keys(Keys<BoundaryConfig>& k) {
-  std::string BoundaryConfig::*const members[6] = {&BoundaryConfig::x_low, &BoundaryConfig::x_high,
-                                                   &BoundaryConfig::y_low, &BoundaryConfig::y_high,
-                                                   &BoundaryConfig::z_low, &BoundaryConfig::z_high};
-  for (int s = 0; s < 6; ++s)
-    k(side_names[s], members[s], "", "what stands at this side of the grid")
-        .one_of({"reflecting", "outflow", "inflow", "periodic"});
-}
-
-std::optional<GasState> const& InflowConfig::side(int d, int side) const {
-  std::optional<GasState> const* const all[6] = {&x_low, &x_high, &y_low, &y_high, &z_low, &z_high};
-  return *all[2 * d + side];
-}
-
-void InflowConfig::keys(Keys<InflowConfig>& k) {
-  std::optional<GasState> InflowConfig::*const members[6] = {&InflowConfig::x_low, &InflowConfig::x_high,
-                                                             &InflowConfig::y_low, &InflowConfig::y_high,
-                                                             &InflowConfig::z_low, &InflowConfig::z_high};
-  for (int s = 0; s < 6; ++s) k(side_names[s], members[s], "", "state that enters through this side");
-}
-
 void RegionConfig::keys(Keys<RegionConfig>& k) {
   k("shape", &RegionConfig::shape, "", "form of the region").one_of({"box", "ball", "half_space"});
   k("low", &RegionConfig::low, "m", "box: its low corner");
@@ -155,6 +129,9 @@ void FlowConfig::keys(Keys<FlowConfig>& k) {
   k("euler", &FlowConfig::euler, "", "motion of the gas by the OSMP scheme");
   k("boundary", &FlowConfig::boundary, "", "sides of the grid");
   k("inflow", &FlowConfig::inflow, "", "states of the inflow sides");
+  k("far_field", &FlowConfig::far_field, "", "states outside the far_field sides");
+  k("moving_wall", &FlowConfig::moving_wall, "", "motion of the moving_wall sides");
+  k("patch", &FlowConfig::patch, "", "parts of sides with a law of their own; later ones overwrite earlier ones");
   k("region", &FlowConfig::region, "", "regions with their own initial state; later ones overwrite earlier ones");
   k("charge", &FlowConfig::charge, "", "explosive charges as balloons of hot gas");
 }
@@ -202,6 +179,7 @@ Grid make_grid(FlowConfig const& config) {
   } catch (Error const& e) {
     throw Error(e.kind(), place(config.at, e.what()));
   }
+  check_patches(config, grid);
   return grid;
 }
 
@@ -257,12 +235,7 @@ void check(FlowConfig const& config) {
            std::string("fluid: there are no cells along ") + axis_names[d] +
                ", so low and high must not give it an extent (a "
                "2D grid is 1 m deep).");
-  for (int d = 0; d < n; ++d)
-    for (int side = 0; side < 2; ++side)
-      demand(config.boundary.side(d, side) != "inflow" || config.inflow.side(d, side), config.boundary.at,
-             std::string("fluid.boundary.") + side_names[2 * d + side] +
-                 " is an inflow without a state: add [fluid.inflow." + side_names[2 * d + side] +
-                 "] with density, pressure and velocity.");
+  check_sides(config);
   for (std::size_t r = 0; r < config.region.size(); ++r)
     check_region(config.region[r], "fluid.region[" + std::to_string(r) + "]");
   for (std::size_t c = 0; c < config.charge.size(); ++c)

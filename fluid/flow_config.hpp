@@ -30,11 +30,14 @@ struct GasState {
   double density = 1.2;
   double pressure = 101325;
   Vec3 velocity{};
-  static void keys(Keys<GasState>& k) {
+  /// The keys of a state, for what is one and holds more.
+  template <class T>
+  static void declare(Keys<T>& k) {
     k("density", &GasState::density, "kg/m3", "density; 0 is vacuum").at_least(0);
     k("pressure", &GasState::pressure, "Pa", "absolute pressure; 0 is vacuum").at_least(0);
     k("velocity", &GasState::velocity, "m/s", "velocity");
   }
+  static void keys(Keys<GasState>& k) { declare(k); }
 };
 
 struct EulerConfig {
@@ -70,11 +73,88 @@ struct BoundaryConfig {
   static void keys(Keys<BoundaryConfig>& k);
 };
 
-/// The given states of the inflow sides.
-struct InflowConfig {
-  std::optional<GasState> x_low, x_high, y_low, y_high, z_low, z_high;
-  std::optional<GasState> const& side(int d, int side) const;
-  static void keys(Keys<InflowConfig>& k);
+/// State of an inflow at a time.
+struct TimedState {
+  double time = 0, density = 0, pressure = 0;
+  Vec3 velocity{};
+  Location at;
+  static void keys(Keys<TimedState>& k);
+};
+
+/// A plane that moves along its normal, with a state of its own behind it.
+struct FrontConfig {
+  Vec3 point{}, normal{};
+  double speed = 0, density = 0, pressure = 0;
+  Vec3 velocity{};
+  Location at;
+  static void keys(Keys<FrontConfig>& k);
+};
+
+/// What enters: a constant state, a history, or two states separated by a front.
+struct InflowState : GasState {
+  std::vector<TimedState> history;
+  std::optional<FrontConfig> front;
+  Location at;
+  InflowState() = default;
+  InflowState(GasState const& constant) : GasState(constant) {}
+  static constexpr char const* meaning = "state that enters through this side";
+  static void keys(Keys<InflowState>& k);
+};
+
+/// State far outside a far_field side.
+struct FarState : GasState {
+  Location at;
+  FarState() = default;
+  FarState(GasState const& state) : GasState(state) {}
+  static constexpr char const* meaning = "state far outside this side; not given: the ambient state";
+  static void keys(Keys<FarState>& k) { GasState::declare(k); }
+};
+
+struct TimedSpeed {
+  double time = 0, speed = 0;
+  Location at;
+  static void keys(Keys<TimedSpeed>& k);
+};
+
+/// A wall that moves along its normal by less than a cell.
+struct WallMotion {
+  double speed = 0;
+  std::vector<TimedSpeed> history;
+  Location at;
+  static constexpr char const* meaning = "motion of the wall at this side";
+  static void keys(Keys<WallMotion>& k);
+};
+
+constexpr char const* side_names[6] = {"x_low", "x_high", "y_low", "y_high", "z_low", "z_high"};
+
+/// What a law needs to know, side by side.
+template <class T>
+struct PerSide {
+  std::optional<T> x_low, x_high, y_low, y_high, z_low, z_high;
+  std::optional<T> const& side(int d, int side) const {
+    std::optional<T> const* const all[6] = {&x_low, &x_high, &y_low, &y_high, &z_low, &z_high};
+    return *all[2 * d + side];
+  }
+  static void keys(Keys<PerSide>& k) {
+    std::optional<T> PerSide::*const members[6] = {&PerSide::x_low,  &PerSide::x_high, &PerSide::y_low,
+                                                   &PerSide::y_high, &PerSide::z_low,  &PerSide::z_high};
+    for (int s = 0; s < 6; ++s) k(side_names[s], members[s], "", T::meaning);
+  }
+};
+using InflowConfig = PerSide<InflowState>;
+using FarFieldConfig = PerSide<FarState>;
+using MovingWallConfig = PerSide<WallMotion>;
+
+/// A part of a side with a law of its own, such as a nozzle; later patches overwrite earlier ones.
+struct PatchConfig {
+  std::string side, law = "inflow", shape = "box";
+  std::optional<Vec3> low, high, centre;
+  std::optional<double> radius;
+  std::optional<InflowState> inflow;
+  std::optional<FarState> far_field;
+  std::optional<WallMotion> moving_wall;
+  Location at;
+  static void keys(Keys<PatchConfig>& k);
 };
 
 /// A part of the domain with its own initial state; later regions overwrite earlier ones.
@@ -113,6 +193,9 @@ struct FlowConfig {
   std::optional<EulerConfig> euler;
   BoundaryConfig boundary;
   InflowConfig inflow;
+  FarFieldConfig far_field;
+  MovingWallConfig moving_wall;
+  std::vector<PatchConfig> patch;
   std::vector<RegionConfig> region;
   std::vector<ChargeConfig> charge;
   Location at;

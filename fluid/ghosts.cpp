@@ -180,7 +180,7 @@ void Ghosts::look_at_end(Slab const& slab, int direction) {
 
 /// The ghosts of a uniform block at a side of the domain, without a look at the block, which is in no cache. False
 /// where they must be filled to know.
-bool Ghosts::find_end(Slab const& slab, int direction) {
+bool Ghosts::find_end(Slab const& slab, int direction, Real time) {
   if (!sleepy(slab.block) || !boundaries_.same_along(direction, slab.side)) return false;
   State const& inside = *uniform_->state(slab.block);
   auto known = std::find_if(tried_.begin(), tried_.end(),
@@ -188,7 +188,7 @@ bool Ghosts::find_end(Slab const& slab, int direction) {
   if (known == tried_.end()) {
     Block& pencil = pencils_[static_cast<std::size_t>(direction)];
     pencil.fill(inside);
-    boundaries_.fill(pencil, direction, slab.side);
+    boundaries_.fill(pencil, direction, slab.side, time);
     CellRange const ghosts = ghost_slab(pencil, direction, slab.side);
     State const first = pencil.load(ghosts.first[0], ghosts.first[1], ghosts.first[2]);
     bool const one_state = holds_only(pencil, ghosts, first);
@@ -209,7 +209,7 @@ void Ghosts::complete(std::size_t block, int direction) {
   }
 }
 
-void Ghosts::start(int direction, UniformBlocks const* uniform) {
+void Ghosts::start(int direction, Real time, UniformBlocks const* uniform) {
   Exchange& exchange = exchanges_[static_cast<std::size_t>(direction)];
   uniform_ = uniform;
   for (std::size_t m = 0; m < exchange.partners.size(); ++m) {
@@ -237,8 +237,8 @@ void Ghosts::start(int direction, UniformBlocks const* uniform) {
   }
   tried_.clear();
   for (Slab const& s : exchange.domain) {
-    if (find_end(s, direction)) continue;
-    boundaries_.fill(blocks_[s.block], direction, s.side);
+    if (find_end(s, direction, time)) continue;
+    boundaries_.fill(blocks_[s.block], direction, s.side, time);
     look_at_end(s, direction);
   }
 }

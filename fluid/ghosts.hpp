@@ -21,10 +21,10 @@ class Ghosts {
          parallel::Comm& comm);
 
   /// Sends what other ranks need and fills the ghosts that depend on this rank alone. Afterwards the cells of `ready`
-  /// blocks may be changed: nothing reads them any more.
+  /// blocks may be changed: nothing reads them any more. `time`: of the laws of the sides, s.
   /// With `uniform` (all blocks looked at; it must not change before finish()), uniform blocks are neither copied from
   /// cell by cell nor sent, and the ghosts of a uniform block may be left as they were: see end() and complete().
-  void start(int direction, UniformBlocks const* uniform = nullptr);
+  void start(int direction, Real time = 0, UniformBlocks const* uniform = nullptr);
   /// Waits for the messages of start() and fills the other ghosts.
   void finish(int direction);
 
@@ -76,7 +76,7 @@ class Ghosts {
   Partner& partner(Exchange& exchange, int rank);
   void set_end(Slab const& slab, int direction, State const& state);
   void look_at_end(Slab const& slab, int direction);
-  bool find_end(Slab const& slab, int direction);
+  bool find_end(Slab const& slab, int direction, Real time);
   bool sleepy(std::size_t block) const { return uniform_ && uniform_->state(block); }
 
   std::vector<Block>& blocks_;

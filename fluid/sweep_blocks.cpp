@@ -75,12 +75,12 @@ void Flow::sweep_block(std::size_t position, int direction, Real dt, SweepReport
     }
 }
 
-SweepReport Flow::sweep(int direction, Real dt) {
+SweepReport Flow::sweep(int direction, Real dt, Real middle) {
   SweepReport total;
   if (sweeper_) sweeper_->prepare(direction, dt);
   look_at_blocks();
   uniform_sweeps_.begin(order_, grid_.dimension, direction, dt / grid_.spacing[direction], gas_, options_);
-  ghosts_.start(direction, sleep_ ? &uniform_ : nullptr);
+  ghosts_.start(direction, middle, sleep_ ? &uniform_ : nullptr);
   for (std::size_t const b : ghosts_.ready(direction)) sweep_block(b, direction, dt, total);
   ghosts_.finish(direction);
   for (std::size_t const b : ghosts_.waiting(direction)) sweep_block(b, direction, dt, total);

@@ -75,6 +75,19 @@ Real acoustic_time_step(Grid const& grid, std::array<Real, 3> const& speeds, Rea
   return speed > 0 ? cfl * grid.spacing[d] / speed : std::numeric_limits<Real>::infinity();
 }
 
+Real side_time_step(Flow const& flow, Real time, Real cfl) {
+  Grid const& grid = flow.grid();
+  auto const step = [&](Real until) {
+    std::array<Real, 3> speeds{};
+    for (int d = 0; d < grid.dimension; ++d)
+      speeds[static_cast<std::size_t>(d)] = flow.boundaries().signal_speed(d, time, until);
+    return acoustic_time_step(grid, speeds, cfl);
+  };
+  // No pair is longer than the states of its first instant allow. The slack keeps a side that gives the state of the
+  // cells from limiting by its rounding.
+  return step(time + steps_per_pair(grid.dimension) * step(time)) * (1 + 1e-12);
+}
+
 int limiting_direction(Grid const& grid, std::array<Real, 3> const& speeds) {
   int worst = 0;
   for (int d = 1; d < grid.dimension; ++d)

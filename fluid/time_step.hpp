@@ -29,7 +29,10 @@ std::array<Real, 3> signal_speeds(Flow const& flow, FluidVolume const& volume);
 
 /// cfl * min_d h_d / speed_d, s; infinite where nothing moves.
 Real acoustic_time_step(Grid const& grid, std::array<Real, 3> const& speeds, Real cfl);
-/// Direction that limits it.
+/// The same for the states that enter through sides during a pair of steps from `time`; infinite without any. The same
+/// on all ranks.
+Real side_time_step(Flow const& flow, Real time, Real cfl);
+/// Direction that limits the first.
 int limiting_direction(Grid const& grid, std::array<Real, 3> const& speeds);
 
 /// The Courant number of the pair that starts with step n: small while the first waves form.

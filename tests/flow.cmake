@@ -1,5 +1,6 @@
 brisance_test(fluid_domain_unit
   SOURCES unit/fluid/grid/grid_test.cpp unit/fluid/grid/block_test.cpp unit/fluid/boundary/boundaries_test.cpp
+          unit/fluid/boundary/far_field_test.cpp unit/fluid/boundary/inflow_test.cpp unit/fluid/boundary/moving_wall_test.cpp
           unit/fluid/flow_config_test.cpp unit/fluid/flow_test.cpp unit/fluid/time_step_test.cpp
           unit/fluid/gauges/gauge_stencil_test.cpp unit/fluid/gauges/gauge_history_test.cpp
           unit/fluid/sleep_test.cpp
@@ -28,4 +29,12 @@ brisance_test(fluid_spherical_blast
 brisance_test(fluid_gauges
   SOURCES verification/fluid/gauge_test.cpp support/riemann.cpp
   LINKS brisance::fluid
+  LABELS verification)
+brisance_test(fluid_sides
+  SOURCES verification/fluid/leaving_waves_test.cpp verification/fluid/entering_waves_test.cpp
+  LINKS brisance::fluid
+  LABELS verification)
+brisance_test(fluid_given_sides
+  SOURCES verification/fluid/given_sides_test.cpp
+  LINKS brisance::drivers
   LABELS verification)

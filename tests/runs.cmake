@@ -15,6 +15,8 @@ brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bod
 brisance_same_digest(bodies-leave ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-leave.toml 240)
 brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 60)
 brisance_same_digest(blast-in-a-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/blast-in-a-box.toml 24)
+brisance_same_digest(sides ${PROJECT_SOURCE_DIR}/tests/support/scenes/sides.toml 60)
+brisance_same_digest(double-mach ${PROJECT_SOURCE_DIR}/tests/support/scenes/double-mach.toml 40)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
 
 # brisance_same_gauges(name SCENE steps [options of run])
@@ -36,6 +38,10 @@ foreach(fault overlapping-bodies non-convex-cells)
   brisance_expect(scene_${fault} CODE 2 LABELS unit MESSAGE "${says_${fault}}" ABSENT ${runs}/${fault}
                   COMMAND ${program} run ${scene} --out ${runs}/${fault})
 endforeach()
+brisance_expect(scene_wall_leaves_its_cell CODE 2 LABELS unit ABSENT ${runs}/wall
+                MESSAGE "sides.toml:[0-9]+:[0-9]+: fluid.boundary.y_low is a wall that moves by"
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/sides.toml --out ${runs}/wall
+                        --set end_time=20)
 brisance_expect(scene_more_ranks_than_blocks CODE 2 RANKS 3 LABELS parallel ABSENT ${runs}/ranks
                 MESSAGE "explosion-cylinder.toml:[0-9]+:[0-9]+: 3 ranks, but the scene has only 2 fluid blocks"
                 COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/ranks --set fluid.block=300)

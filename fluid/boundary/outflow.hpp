@@ -1,6 +1,6 @@
 // Open side: the upwind flux itself is the characteristic boundary.
 #pragma once
-#include "fluid/grid/grid.hpp"
+#include "fluid/boundary/ghost_cell.hpp"
 
 namespace brisance::fluid {
 
@@ -8,7 +8,7 @@ namespace brisance::fluid {
 struct Outflow {
   static constexpr char const* name = "outflow";
   Index source(Index) const { return 0; }
-  State operator()(State const& u, int) const { return u; }
+  State operator()(State const& u, GhostCell const&) const { return u; }
 };
 
 }  // namespace brisance::fluid

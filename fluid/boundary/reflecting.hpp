@@ -1,6 +1,6 @@
 // Slip wall at rest.
 #pragma once
-#include "fluid/grid/grid.hpp"
+#include "fluid/boundary/ghost_cell.hpp"
 
 namespace brisance::fluid {
 
@@ -9,9 +9,8 @@ struct Reflecting {
   static constexpr char const* name = "reflecting";
   /// Distance of the source cell from the side, in cells.
   Index source(Index ghost) const { return ghost; }
-  State operator()(State u, int direction) const {
-    std::size_t const normal = 1 + static_cast<std::size_t>(direction);
-    u[normal] = -u[normal];
+  State operator()(State u, GhostCell const& ghost) const {
+    u[ghost.normal()] = -u[ghost.normal()];
     return u;
   }
 };

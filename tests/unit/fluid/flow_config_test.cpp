@@ -122,6 +122,74 @@ TEST(FlowConfig, ChargesAreNeitherUnderNorOverdetermined) {
             std::string::npos);
 }
 
+TEST(FlowConfig, ReadsTheLawsOfTheSides) {
+  FlowConfig const config = read(R"(
+high = ["1 m", "1 m"]
+cells = [20, 20]
+[boundary]
+x_low = "inflow"
+x_high = "far_field"
+y_low = "moving_wall"
+y_high = "inflow"
+[inflow.x_low]
+history = [
+  { time = "0 ms", density = 1.2, pressure = "1 bar" },
+  { time = "1 ms", density = 2.4, pressure = "3 bar", velocity = ["100 m/s", 0] } ]
+[inflow.y_high]
+density = 1
+pressure = 2
+front = { point = [0, 1], normal = [1, 0], speed = 5, density = 4, pressure = 9 }
+[far_field.x_high]
+density = 1.1
+pressure = "0.9 bar"
+[moving_wall.y_low]
+speed = "0.1 m/s"
+[[patch]]
+side = "x_high"
+law = "reflecting"
+low = [0, 0]
+high = [0, 0.5]
+)");
+  check(config);
+  make_grid(config);
+  ASSERT_EQ(config.inflow.x_low->history.size(), 2u);
+  EXPECT_EQ(config.inflow.x_low->history[1].time, 1e-3);
+  EXPECT_EQ(config.inflow.y_high->front->density, 4);
+  EXPECT_EQ(config.far_field.x_high->pressure, 0.9e5);
+  EXPECT_EQ(config.moving_wall.y_low->speed, 0.1);
+  FlowConfig const again = read_keys<FlowConfig>(parse_toml(write_keys(config), "resolved.toml"));
+  check(again);
+  EXPECT_EQ(write_keys(again), write_keys(config));
+}
+
+TEST(FlowConfig, ErrorsOfSidesNameWhatIsWrong) {
+  auto const says = [](std::string const& text, std::string const& part) {
+    std::string const error = scene_error_of("high = [1, 1]\ncells = [20, 20]\n" + text);
+    EXPECT_NE(error.find(part), std::string::npos) << error;
+  };
+  says("[boundary]\nx_low = \"moving_wall\"", "[fluid.moving_wall.x_low]");
+  says(
+      "[boundary]\nx_low = \"inflow\"\n[inflow.x_low]\nhistory = [{ time = 1, density = 1, pressure = 1 },"
+      "{ time = 1, density = 1, pressure = 1 }]",
+      "times must ascend");
+  says(
+      "[boundary]\nx_low = \"inflow\"\n[inflow.x_low]\ndensity = 2\nhistory = [{ time = 1, density = 1, "
+      "pressure = 1 }]",
+      "either a constant");
+  says(
+      "[boundary]\nx_low = \"inflow\"\n[inflow.x_low]\ndensity = 2\nfront = { point = [0, 0], normal = [0, 0], "
+      "density = 1, pressure = 1 }",
+      "`normal` is zero");
+  says("[[patch]]\nside = \"x_low\"", "needs `low` and `high`");
+  says("[[patch]]\nside = \"z_low\"\nlow = [0, 0]\nhigh = [1, 1]", "normal of z_low");
+  says("[[patch]]\nside = \"x_low\"\nlaw = \"outflow\"\nlow = [0, 0.51]\nhigh = [0, 0.52]", "no centre of a face");
+  says("[[patch]]\nside = \"x_low\"\nlow = [0, 0]\nhigh = [1, 1]", "[fluid.patch[0].inflow]");
+  says(
+      "[boundary]\nx_low = \"periodic\"\nx_high = \"periodic\"\n[[patch]]\nside = \"x_low\"\nlaw = "
+      "\"outflow\"\nlow = [0, 0]\nhigh = [1, 1]",
+      "x_low is periodic");
+}
+
 TEST(FlowConfig, VacuumThresholdsFollowTheAmbientStateOrElseTheLargestRegion) {
   FlowConfig config = testing::unit_box(1, 20);
   config.ambient = {2, 8, {}};
