@@ -114,6 +114,43 @@ TEST(Sleep, AnInflowOfTheGasThatIsThereAndOfAnother) {
   EXPECT_LT(share, 1);
 }
 
+TEST(Sleep, AnInflowThatChangesWithTimeWakesItsSideWhenItDoes) {
+  FlowConfig config = testing::unit_box(2, 64);
+  config.block = 8;
+  config.ambient.velocity = {0.5, 0, 0};
+  config.boundary.x_low = "inflow";
+  config.boundary.x_high = "outflow";
+  config.inflow.x_low = config.ambient;
+  TimedState still;
+  still.density = still.pressure = 1;
+  still.velocity = config.ambient.velocity;
+  TimedState later = still, risen = still;
+  later.time = 0.02;
+  risen.time = 0.03;
+  risen.pressure = 1.4;
+  config.inflow.x_low->history = {still, later, risen};
+  EXPECT_EQ(saved_share(config, 4), 1);
+  Real const share = saved_share(config, 20);
+  EXPECT_GT(share, 0.5);
+  EXPECT_LT(share, 1);
+}
+
+TEST(Sleep, APatchOfASideWakesTheBlocksBesideItAlone) {
+  FlowConfig config = testing::unit_box(2, 64);
+  config.block = 8;
+  config.ambient.velocity = {0.5, 0, 0};
+  config.boundary.x_low = config.boundary.x_high = "outflow";
+  PatchConfig patch;
+  patch.side = "x_high";
+  patch.law = "reflecting";
+  patch.low = Vec3{0, 0.3, 0};
+  patch.high = Vec3{1, 0.4, 0};
+  config.patch = {patch};
+  Real const share = saved_share(config, 6);
+  EXPECT_GT(share, 0.7);
+  EXPECT_LT(share, 1);
+}
+
 TEST(Sleep, VacuumSleepsUntilGasArrives) {
   for (int dimension : {1, 2}) {
     FlowConfig config = blast(dimension, 5);

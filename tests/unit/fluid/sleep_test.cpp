@@ -74,9 +74,11 @@ TEST(UniformSweeps, AWallMattersWhereGasRunsAgainstItOnly) {
         v[moving] = 0.2;
         State const u = gas.conserved(1, v, 1), rest = gas.conserved(1, {}, 1);
         bool const still = moving != direction;
-        EXPECT_EQ(outcome(order, direction, u, wall(u, direction), u, gas).unchanged, still);
-        EXPECT_EQ(outcome(order, direction, u, u, wall(u, direction), gas).unchanged, still);
-        EXPECT_TRUE(outcome(order, direction, rest, wall(rest, direction), wall(rest, direction), gas).unchanged);
+        EXPECT_EQ(outcome(order, direction, u, wall(u, GhostCell{direction, 0, {}}), u, gas).unchanged, still);
+        EXPECT_EQ(outcome(order, direction, u, u, wall(u, GhostCell{direction, 0, {}}), gas).unchanged, still);
+        EXPECT_TRUE(outcome(order, direction, rest, wall(rest, GhostCell{direction, 0, {}}),
+                            wall(rest, GhostCell{direction, 0, {}}), gas)
+                        .unchanged);
       }
 }
 
