@@ -120,7 +120,6 @@ TEST(Sleep, AnInflowThatChangesWithTimeWakesItsSideWhenItDoes) {
   config.ambient.velocity = {0.5, 0, 0};
   config.boundary.x_low = "inflow";
   config.boundary.x_high = "outflow";
-  config.inflow.x_low = config.ambient;
   TimedState still;
   still.density = still.pressure = 1;
   still.velocity = config.ambient.velocity;
@@ -128,7 +127,7 @@ TEST(Sleep, AnInflowThatChangesWithTimeWakesItsSideWhenItDoes) {
   later.time = 0.02;
   risen.time = 0.03;
   risen.pressure = 1.4;
-  config.inflow.x_low->history = {still, later, risen};
+  config.inflow.x_low.emplace().history = {still, later, risen};
   EXPECT_EQ(saved_share(config, 4), 1);
   Real const share = saved_share(config, 20);
   EXPECT_GT(share, 0.5);
