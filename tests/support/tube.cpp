@@ -9,12 +9,11 @@ namespace brisance::testing {
 
 using fluid::State;
 
-Tube::Tube(int n, double low, double high, double gamma, Ends ends, double density_scale, double pressure_scale)
-    : low_(low),
-      h_((high - low) / n),
-      gas_{gamma, 1e-10 * density_scale, 1e-12 * pressure_scale / (gamma - 1)},
-      ends_(ends),
-      cells_(static_cast<std::size_t>(n)) {}
+Tube::Tube(int n, double low, double high, fluid::Gas gas, Ends ends, double density_scale, double pressure_scale)
+    : low_(low), h_((high - low) / n), gas_(gas), ends_(ends), cells_(static_cast<std::size_t>(n)) {
+  gas_.vacuum_density = 1e-10 * density_scale;
+  gas_.vacuum_energy = 1e-12 * pressure_scale / gas_.kappa();
+}
 
 void Tube::fill(Primitive left, Primitive right, double x0) {
   State const l = gas_.conserved(left.density, {left.velocity, 0, 0}, left.pressure);
