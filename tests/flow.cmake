@@ -38,3 +38,8 @@ brisance_test(fluid_given_sides
   SOURCES verification/fluid/given_sides_test.cpp
   LINKS brisance::drivers
   LABELS verification)
+set(hard_cases support/hard_cases.cpp support/held_cells.cpp support/shocks.cpp support/riemann.cpp)
+brisance_test(fluid_stability
+  SOURCES stability/fluid/matrix_test.cpp ${hard_cases}
+  LINKS brisance::fluid
+  LABELS stability)

@@ -123,7 +123,8 @@ Primitive RiemannProblem::at(double speed) const {
 std::vector<double> RiemannProblem::breaks() const {
   std::vector<double> list;
   auto const add = [&](WaveCurve const& wave, Primitive const& star) {
-    if (!wave.empty()) list.insert(list.end(), {wave.head(star), wave.tail(star), star.velocity});
+    if (wave.empty()) return;
+    for (double const speed : {wave.head(star), wave.tail(star), star.velocity}) list.push_back(speed);
   };
   add(left_, left_star_), add(right_, right_star_);
   std::sort(list.begin(), list.end());
