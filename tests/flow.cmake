@@ -43,3 +43,7 @@ brisance_test(fluid_stability
   SOURCES stability/fluid/matrix_test.cpp ${hard_cases}
   LINKS brisance::fluid
   LABELS stability)
+brisance_test(fluid_several_dimensions
+  SOURCES verification/fluid/several_dimensions_test.cpp ${hard_cases}
+  LINKS brisance::fluid
+  LABELS verification)

@@ -27,7 +27,7 @@ void write_row(std::string const& table, std::string const& head, std::string co
 
 std::string number(double x) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.9g", x);
+  std::snprintf(text, sizeof text, "%.9g", x + 0.0);  // -0 reads as 0
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include "tests/support/hard_cases.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <random>
 
@@ -263,10 +264,9 @@ HardCase hot_ball(int dimension, int n, Real ratio) {
   FlowConfig config = unit_box(dimension, n);
   config.region = {box({0, 0, 0}, {.25, .25, .25}, 0, 0), ball({.5, .55, .45}, .15, 1, ratio)};
   // until the front has met walls and void
-  return {"8.4",
-          "pressure ratio " + std::to_string(static_cast<long long>(ratio)) + " beside walls and vacuum " +
-              std::to_string(dimension) + "D",
-          config, 1.5 / std::sqrt(1.4 * ratio)};
+  char name[64];
+  std::snprintf(name, sizeof name, "pressure ratio %.0e beside walls and vacuum %dD", ratio, dimension);
+  return {"8.4", name, config, 1.5 / std::sqrt(1.4 * ratio)};
 }
 
 HardCase random_box(int dimension, int n, unsigned seed, std::int64_t steps) {

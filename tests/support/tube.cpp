@@ -48,7 +48,7 @@ void Tube::run(int order, double end_time, double cfl) {
       if (ends_ == Ends::walls) ghost(k, n - 1 - k);
       if (ends_ == Ends::outflow) ghost(0, n - 1);
     }
-    auto const report = fluid::sweep_box(order, box.view(), 0, dt / h_, gas_);
+    auto const report = fluid::sweep_box(order, box.view(), 0, dt / h_, gas_, options);
     limited_faces += report.fallback_faces;
     health |= report.health & ~static_cast<std::uint64_t>(fluid::Health::courant);
     t = dt == end_time - t ? end_time : t + dt;

@@ -27,6 +27,7 @@ class Tube {
   /// Courant number `cfl`, at most 0.3 in the first five steps.
   void run(int order, double end_time, double cfl = 0.9);
 
+  fluid::SweepOptions options;
   std::int64_t limited_faces = 0;
   std::uint64_t health = 0;
   int steps = 0;

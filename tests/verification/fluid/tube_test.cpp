@@ -1,6 +1,7 @@
 // Riemann problems of theory/fluid.md 8.2 at all orders: L1 error of the cell means of density.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/evidence.hpp"
@@ -47,6 +48,33 @@ TEST_P(RiemannTable, DensityIsAsGoodAsTheTable) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Tubes, RiemannTable, ::testing::ValuesIn(shocks()));
+
+/// Frozen coefficients next to pressure jumps, where the theory measured them (2.4).
+TEST(HybridTubes, DensityIsAsGoodAsTheTable) {
+  struct Measured {
+    char const* id;
+    int order;
+    double error;
+  };
+  for (Measured const& m : {Measured{"F18a", 5, 1.50e-3},
+                            {"F18a", 11, 1.16e-3},
+                            {"F6", 5, 1.23e-3},
+                            {"F9", 11, 9.12e-2},
+                            {"F11", 5, 2.04e-2},
+                            {"F11", 11, 1.90e-2},
+                            {"F18c", 5, .149},
+                            {"F18c", 11, .135}}) {
+    auto const s =
+        std::find_if(shocks().begin(), shocks().end(), [&](Shock const& x) { return m.id == std::string(x.id); });
+    ASSERT_NE(s, shocks().end());
+    Tube tube = make_tube(*s, 200);
+    tube.options.hybrid = true;
+    tube.run(m.order, s->end_time);
+    EXPECT_EQ(tube.health, 0u);
+    EXPECT_TRUE(evidence::at_most(s->id, s->name, variant(m.order) + " hybrid", "L1 density N=200",
+                                  density_error(tube, exact_means(tube, *s)), allowance * m.error));
+  }
+}
 
 TEST(Contact, AtRestIsExact) {
   Shock const s{"F13a", "contact at rest", {1.4, 0, 1}, {1, 0, 1}, .5, 2, ideal_gas(1.4), 1, {}};
