@@ -24,6 +24,7 @@ class HeldCells final : public fluid::BlockSweeper {
   bool handles(Index) const override { return false; }
   void prepare(int direction, Real dt) override;
   fluid::SweepReport sweep(fluid::Block&, int, Real) override { return {}; }
+  bool is_fluid(fluid::Block const&, Index, Index, Index) const override { return true; }
 
   bool holds(fluid::CellIndex c) const { return held_.where(flow_.grid(), c); }
   /// What was written less what stood there, over all accepted pairs: kg, kg m/s, J (2D: per metre).

@@ -1,7 +1,7 @@
-// Two-dimensional cases of theory/fluid.md 8.4: F21 to F25.
+// Two-dimensional cases of theory/fluid.md 8.4: F21 to F25. The tables were made without the switch at pressure jumps
+// ("hybrid") and, but for F24, with the transverse cure; variants named "hybrid" are the program's default.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "tests/support/evidence.hpp"
@@ -14,14 +14,26 @@ namespace {
 using fluid::CellIndex;
 using fluid::State;
 
-HardRun finished(HardCase const& c, int order, Real cfl = 0.9) {
+constexpr bool with_cure = true;
+
+HardRun finished(HardCase c, int order, bool hybrid = false, bool cure = with_cure, Real cfl = 0.9) {
+  c.config.euler->hybrid = hybrid;
+  if (!cure) c.config.euler->shear_dissipation = 0;
   HardRun run(c, order);
   run.run(cfl);
-  EXPECT_EQ(run.failure, "");
-  EXPECT_EQ(run.health, 0u);
-  EXPECT_LE(run.conservation, 1e-12);
+  EXPECT_EQ(run.failure, "") << c.name;
+  EXPECT_EQ(run.health, 0u) << c.name;
   return run;
 }
+
+/// Orders of the short run; all of them in the full one.
+std::vector<int> tried(std::vector<int> const& few = {1, 5, 11}) {
+  return evidence::full() ? std::vector<int>{1, 3, 5, 7, 9, 11} : few;
+}
+/// Place of an order in a table.
+std::size_t column(int order) { return static_cast<std::size_t>(order - 1) / 2; }
+
+std::string text(int order, bool hybrid) { return variant(order) + (hybrid ? " hybrid" : ""); }
 
 Real largest_density(HardRun const& run) {
   Real largest = 0;
@@ -53,70 +65,148 @@ Real transverse_error(HardRun const& run) {
   return largest;
 }
 
-std::vector<int> tried() { return evidence::full() ? std::vector<int>{1, 3, 5, 7, 9, 11} : std::vector<int>{1, 5, 11}; }
-std::size_t column(int order) { return static_cast<std::size_t>(order - 1) / 2; }
+TEST(OddEven, DoesNotGrow) {
+  for (int const order : tried())
+    for (bool const hybrid : {false, true})
+      EXPECT_TRUE(evidence::at_most("F21", "odd-even", text(order, hybrid), "transverse density error",
+                                    transverse_error(finished(odd_even(20), order, hybrid)), 1e-4));
+}
 
-TEST(SeveralDimensions, TransverseErrors) {
-  for (int order : tried()) {
-    printf("F21 %d %g\n", order, transverse_error(finished(odd_even(20), order)));
-    printf("F22 %d %g\n", order, transverse_error(finished(steady_shock(order), order)));
-  }
+TEST(SteadyShock, DoesNotBreakUp) {
+  for (int const order : tried())
+    for (bool const hybrid : {false, true})
+      EXPECT_TRUE(evidence::at_most("F22", "steady shock", text(order, hybrid), "transverse density error",
+                                    transverse_error(finished(steady_shock(order, 1), order, hybrid)), 0.6));
 }
-TEST(SeveralDimensions, Sedov) {
-  for (int order : tried()) {
-    auto run = finished(sedov(2, 60), order);
-    Real axis = 0, diag = 0, r = 0, top = 0;
+
+TEST(Sedov, HasThePeaksOfTheTable) {
+  // on the axis, on the diagonal; hybrid: orders 5 and 11 only
+  Real const table[6][2] = {{2.98, 3.35}, {4.19, 4.30}, {4.57, 4.52}, {4.52, 4.69}, {4.55, 4.76}, {4.55, 4.78}};
+  Real const hybrid_table[2][2] = {{4.41, 4.52}, {4.58, 4.63}};
+  auto const check = [](int order, bool hybrid, Real const(&expected)[2]) {
+    HardRun const run = finished(sedov(2, 60), order, hybrid);
+    Real axis = 0, diagonal = 0, place = 0;
     for_cells(run, [&](CellIndex c, State const& u) {
-      if (c[1] == 0) axis = max(axis, u[0]);
-      if (c[1] == c[0]) diag = max(diag, u[0]);
-      if (c[1] == 0 && u[0] > top) top = u[0], r = run.flow->grid().centre(c).x;
+      if (c[1] == 0 && u[0] > axis) axis = u[0], place = run.flow->grid().centre(c).x;
+      if (c[1] == c[0]) diagonal = max(diagonal, u[0]);
     });
-    printf("F23 %d %g %g r %g\n", order, axis, diag, r);
-  }
+    std::string const name = text(order, hybrid);
+    EXPECT_TRUE(evidence::near("F23", "Sedov", name, "peak density on the axis", axis, expected[0], 0.1 * expected[0]));
+    EXPECT_TRUE(
+        evidence::near("F23", "Sedov", name, "peak density on the diagonal", diagonal, expected[1], 0.1 * expected[1]));
+    // one cell of 0.02; order 1 smears the front
+    EXPECT_TRUE(evidence::near("F23", "Sedov", name, "radius of the peak on the axis", place, 0.983, 0.02));
+    EXPECT_TRUE(
+        evidence::at_most("F23", "Sedov", name, "largest defect of mass, momentum, energy", run.conservation, 1e-13));
+  };
+  for (int const order : tried()) check(order, false, table[column(order)]);
+  for (int const order : {5, 11}) check(order, true, hybrid_table[order == 11]);
 }
-TEST(SeveralDimensions, Noh) {
-  for (int order : tried()) {
-    auto run = finished(noh(2, 100, order), order);
-    Real l1 = 0, inner = 0, n = 0;
+
+TEST(Noh, IsAsGoodAsTheTable) {
+  constexpr int n = 100, samples = 8;
+  constexpr Real h = 1.0 / n, front = 2. / 3;
+  struct Expected {
+    Real l1, inner, centre;  // L1 of density, mean error for r < 0.5, density at the centre; 0: not given
+  };
+  Expected const table[6] = {{.267, .59, 18.8}, {.112, 0, 0}, {.114, .18, 14.2},
+                             {.128, 0, 0},      {.138, 0, 0}, {.173, .24, 14.1}};
+  auto const check = [&](int order, bool hybrid, Expected const& expected) {
+    HardRun const run = finished(noh(2, n, order), order, hybrid);
+    Real l1 = 0, inner = 0, count = 0;
     for_cells(run, [&](CellIndex c, State const& u) {
-      Vec3 const x = run.flow->grid().centre(c);
-      Real const r = std::hypot(x.x, x.y);
-      Real const e = std::abs(u[0] - (r < 2. / 3 ? 16 : 1 + 2 / r));
-      l1 += e * 1e-4;
-      if (r < 0.5) inner += e, n += 1;
+      Real exact = 0;
+      for (int a = 0; a < samples; ++a)
+        for (int b = 0; b < samples; ++b) {
+          Real const r = std::hypot(c[0] + (a + 0.5) / samples, c[1] + (b + 0.5) / samples) * h;
+          exact += (r < front ? 16 : 1 + 2 / r) / (samples * samples);
+        }
+      l1 += std::abs(u[0] - exact) * h * h;
+      if (std::hypot(c[0] + 0.5, c[1] + 0.5) * h < 0.5) inner += std::abs(u[0] - 16), count += 1;
     });
-    printf("F23b %d %g %g centre %g\n", order, l1, inner / n, load(*run.flow, {0, 0, 0})[0]);
+    std::string const name = text(order, hybrid);
+    EXPECT_TRUE(evidence::at_most("F23b", "Noh", name, "L1 density", l1, allowance * expected.l1));
+    if (expected.inner > 0) {
+      EXPECT_TRUE(evidence::at_most("F23b", "Noh", name, "mean error of density within r = 0.5", inner / count,
+                                    allowance * expected.inner));
+    }
+    if (expected.centre > 0) {
+      EXPECT_TRUE(evidence::near("F23b", "Noh", name, "density at the centre", load(*run.flow, {0, 0, 0})[0],
+                                 expected.centre, 0.1 * expected.centre));
+    }
+  };
+  for (int const order : tried()) check(order, false, table[column(order)]);
+  check(5, true, {.115, 0, 0});
+  check(11, true, {.171, 0, 0});
+}
+
+TEST(DoubleMach, HasThePeakOfTheTable) {
+  Real const table[6] = {19.9, 20.8, 20.9, 20.9, 20.9, 20.9};
+  for (int const order : tried()) {
+    Real const expected = table[column(order)];
+    EXPECT_TRUE(evidence::near("F23c", "double Mach reflection", variant(order), "largest density",
+                               largest_density(finished(double_mach(60, order), order)), expected, 0.05 * expected));
   }
 }
-TEST(SeveralDimensions, DoubleMach) {
-  for (int order : tried()) {
-    auto run = finished(double_mach(60, order), order);
-    printf("F23c %d %g lim %ld\n", order, largest_density(run), (long)run.clock.fallback_faces);
+
+TEST(Jet, HasThePeakOfTheTable) {
+  for (int const order : tried()) {
+    HardRun const run = finished(jet(2, 100, order, 0.9), order);
+    Real const table[6] = {16.4, 0, 24.8, 0, 0, 25.3}, expected = table[column(order)];
+    // the head of the jet is unstable: its peak moves with every detail
+    if (expected > 0) {
+      EXPECT_TRUE(evidence::near("F23d", "Mach 2000 jet", variant(order), "largest density", largest_density(run),
+                                 expected, 0.2 * expected));
+    }
+    EXPECT_TRUE(evidence::at_most("F23d", "Mach 2000 jet", variant(order), "largest defect of mass, momentum, energy",
+                                  run.conservation, 1e-13));
+    EXPECT_GT(run.density_min, 0.02);
+    EXPECT_GT(run.pressure_min, 0);
   }
 }
-TEST(SeveralDimensions, Jet) {
-  for (int order : tried()) {
-    auto run = finished(jet(2, 100, order, 0.9), order);
-    printf("F23d %d max %g min %g %g lim %ld\n", order, largest_density(run), run.density_min, run.pressure_min, (long)run.clock.fallback_faces);
+
+TEST(Riemann2D, IsAsTheTableWithoutTheCure) {
+  struct Expected {
+    Real density, asymmetry;  // 0: not given
+  };
+  Expected const table[6] = {{1.698, .05}, {1.760, 0}, {1.748, .61}, {1.753, 0}, {1.757, 0}, {1.750, .66}};
+  for (int const order : tried({5})) {
+    HardRun const run = finished(riemann_2d(200), order, false, !with_cure);
+    Expected const& expected = table[column(order)];
+    EXPECT_TRUE(evidence::near("F24a", "2D Riemann problem 3", variant(order), "largest density", largest_density(run),
+                               expected.density, 0.02 * expected.density));
+    if (expected.asymmetry > 0) {
+      EXPECT_TRUE(evidence::at_most("F24a", "2D Riemann problem 3", variant(order), "asymmetry of density",
+                                    asymmetry(run), allowance * expected.asymmetry));
+    }
   }
 }
-TEST(SeveralDimensions, Riemann) {
-  for (int order : tried()) {
-    auto run = finished(riemann_2d(200), order);
-    printf("F24a %d max %g asym %g\n", order, largest_density(run), asymmetry(run));
+
+TEST(Implosion, IsAsTheTableWithoutTheCure) {
+  Real const table[6] = {5e-3, 0, .37, 0, 0, .35};
+  for (int const order : tried({5})) {
+    HardRun const run = finished(implosion(100), order, false, !with_cure);
+    EXPECT_TRUE(evidence::at_most("F24b", "implosion", variant(order), "largest defect of mass, momentum, energy",
+                                  run.conservation, 1e-13));
+    if (Real const expected = table[column(order)]; expected > 0) {
+      EXPECT_TRUE(evidence::at_most("F24b", "implosion", variant(order), "asymmetry of density", asymmetry(run),
+                                    allowance * expected));
+    }
   }
 }
-TEST(SeveralDimensions, Implosion) {
-  for (int order : tried()) {
-    auto run = finished(implosion(100), order);
-    printf("F24b %d cons %g asym %g\n", order, run.conservation, asymmetry(run));
-  }
-}
-TEST(SeveralDimensions, Vacuum) {
-  for (int order : tried()) {
-    auto run = finished(vacuum_ball(2, 100), order);
-    printf("F25 %d min %g %g rej %ld\n", order, run.density_min, run.pressure_min, (long)run.clock.retry.rejected());
-  }
+
+TEST(Vacuum, IsEnteredWithoutRejection) {
+  for (int const order : {1, 5, 11})
+    for (Real const cfl : {0.3, 0.9}) {
+      HardRun const run = finished(vacuum_ball(2, 100), order, false, with_cure, cfl);
+      std::string const name = variant(order) + (cfl > 0.5 ? " CFL 0.9" : " CFL 0.3");
+      EXPECT_EQ(run.density_min, 0);
+      // at order 11 a sweep meets a Courant number above 1 (theory, end of 8.4): that pair must be taken back
+      EXPECT_TRUE(evidence::at_most("F25", "disk in true vacuum", name, "rejected pairs",
+                                    static_cast<Real>(run.clock.retry.rejected()), order == 11 && cfl > 0.5 ? 1 : 0));
+      EXPECT_TRUE(evidence::at_most("F25", "disk in true vacuum", name, "largest defect of mass, momentum, energy",
+                                    run.conservation, 1e-13));
+    }
 }
 
 }  // namespace
