@@ -18,6 +18,8 @@ using fluid::State;
 
 namespace {
 
+std::string named(std::string const& name, int dimension) { return name + " " + std::to_string(dimension) + "D"; }
+
 /// Radius in the present directions.
 Real radius(Grid const& grid, CellIndex c) {
   Vec3 x = grid.centre(c);
@@ -59,7 +61,7 @@ HardCase sedov(int dimension, int n) {
   config.ambient = {1, 0.4e-5, {}};
   // energy of the whole blast that reaches radius 1 at time 1, shared by four quadrants or eight octants
   Real const energy = dimension == 2 ? 0.244816 : 0.851072 / 8;
-  return {"F23", "Sedov " + std::to_string(dimension) + "D", config, 1, [=](Flow const& flow, CellIndex c) {
+  return {"F23", named("Sedov", dimension), config, 1, [=](Flow const& flow, CellIndex c) {
             State u = flow.gas().conserved(1, {}, 0.4e-5);
             if (c == CellIndex{0, 0, 0}) u[4] = energy / flow.grid().cell_volume();
             return u;
@@ -80,7 +82,7 @@ HardCase noh(int dimension, int n, int order) {
     return flow.gas().conserved(density, inwards, 1e-6 * std::pow(density, flow.gas().gamma));
   };
   return {"F23b",
-          "Noh " + std::to_string(dimension) + "D",
+          named("Noh", dimension),
           config,
           2,
           [exact](Flow const& flow, CellIndex c) { return exact(flow, c, 0); },
@@ -150,7 +152,7 @@ HardCase jet(int dimension, int n, int order, Real cfl) {
   config.ambient = {0.5, 0.4127, {}};
   set_boundaries(config, "outflow");
   HardCase c{"F23d",
-             "Mach 2000 jet " + std::to_string(dimension) + "D",
+             named("Mach 2000 jet", dimension),
              config,
              0.001,
              {},
@@ -165,14 +167,14 @@ HardCase jet(int dimension, int n, int order, Real cfl) {
   return c;
 }
 
-HardCase odd_even(int n) {
-  FlowConfig config = unit_box(2, n);
+HardCase odd_even(int dimension, int n) {
+  FlowConfig config = unit_box(dimension, n);
   config.cells[0] = 20 * n;
   config.high.x = 20;
+  set_boundaries(config, "periodic");
   config.boundary.x_low = config.boundary.x_high = "outflow";
-  config.boundary.y_low = config.boundary.y_high = "periodic";
-  return {"F21", "odd-even", config, 2.667, [](Flow const& flow, CellIndex c) {
-            Real const noise = (c[0] + c[1]) % 2 == 0 ? 1e-6 : -1e-6;
+  return {"F21", named("odd-even", dimension), config, 2.667, [](Flow const& flow, CellIndex c) {
+            Real const noise = (c[0] + c[1] + c[2]) % 2 == 0 ? 1e-6 : -1e-6;
             // Mach 6 into (1.4, 0, 1): Rankine and Hugoniot
             Real const jump = 2.4 * 36 / (0.4 * 36 + 2), pressure = 1 + 7. / 6 * 35;
             return flow.grid().centre(c).x < 1
@@ -181,19 +183,19 @@ HardCase odd_even(int n) {
           }};
 }
 
-HardCase steady_shock(int order, unsigned seed) {
+HardCase steady_shock(int dimension, int order, unsigned seed) {
   constexpr Real mach = 7, gamma = 1.4, ahead = 1 / (gamma * mach * mach);
   constexpr Real jump = (gamma + 1) * mach * mach / ((gamma - 1) * mach * mach + 2);
   constexpr Real behind = ahead * (1 + 2 * gamma / (gamma + 1) * (mach * mach - 1));
-  int const g = fluid::ghost_depth(order), n = 50;
-  FlowConfig config = unit_box(2, 25, 25);
+  int const g = fluid::ghost_depth(order), n = 50, across = dimension == 2 ? 25 : 12;
+  FlowConfig config = unit_box(dimension, across, across);
   config.cells[0] = n + g;
   config.high.x = n + g;
   config.block = n + g;
   config.ambient = {1, ahead, {1, 0, 0}};
+  set_boundaries(config, "periodic");
   config.boundary.x_low = "inflow", config.boundary.x_high = "outflow";
   config.inflow.x_low = fluid::GasState{1, ahead, {1, 0, 0}};
-  config.boundary.y_low = config.boundary.y_high = "periodic";
   auto const noise = std::make_shared<std::mt19937>(seed);
   return {"F22",
           "steady shock",
@@ -206,9 +208,9 @@ HardCase steady_shock(int order, unsigned seed) {
           },
           Held{[n](Grid const&, CellIndex c) { return c[0] >= n; },
                [n](Flow const& flow, CellIndex c, Real) {
-                 State const inside = load(flow, {n - 1, c[1], 0});
+                 State const inside = load(flow, {n - 1, c[1], c[2]});
                  Real const density = inside[0];
-                 return flow.gas().conserved(density, {1 / density, inside[2] / density, 0}, behind);
+                 return flow.gas().conserved(density, {1 / density, inside[2] / density, inside[3] / density}, behind);
                }}};
 }
 
@@ -216,7 +218,7 @@ HardCase vacuum_ball(int dimension, int n) {
   FlowConfig config = unit_box(dimension, n);
   config.ambient = {0, 0, {}};
   config.region = {ball({.5, .5, .5}, .15, 1, 1)};
-  return {"F25", "ball in true vacuum " + std::to_string(dimension) + "D", config, 0.06};
+  return {"F25", named("ball in true vacuum", dimension), config, 0.06};
 }
 
 }  // namespace brisance::testing

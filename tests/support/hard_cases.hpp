@@ -16,9 +16,9 @@ HardCase noh(int dimension, int n, int order);  ///< F23b, exact ghosts outside 
 HardCase implosion(int n);                      ///< F24b
 HardCase riemann_2d(int n);                     ///< F24a, configuration 3
 HardCase double_mach(int n, int order);         ///< F23c, 4 n x n
-HardCase jet(int dimension, int n, int order, Real cfl);  ///< F23d, 2 n x n (x n): Mach 2000
-HardCase odd_even(int n);                                 ///< F21, 20 n x n
-HardCase steady_shock(int order, unsigned seed);          ///< F22, 50 x 25
-HardCase vacuum_ball(int dimension, int n);               ///< F25: gas in true vacuum
+HardCase jet(int dimension, int n, int order, Real cfl);         ///< F23d, 2 n x n (x n): Mach 2000
+HardCase odd_even(int dimension, int n);                         ///< F21, 20 n x n (x n)
+HardCase steady_shock(int dimension, int order, unsigned seed);  ///< F22, 50 x 25, or 50 x 12 x 12
+HardCase vacuum_ball(int dimension, int n);                      ///< F25: gas in true vacuum
 
 }  // namespace brisance::testing

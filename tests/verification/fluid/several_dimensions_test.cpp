@@ -50,7 +50,7 @@ Real asymmetry(HardRun const& run) {
   return largest;
 }
 
-/// Largest difference of density between a cell and the mean over y.
+/// Largest difference of density between a cell and the mean over its layer along x.
 Real transverse_error(HardRun const& run) {
   auto const n = static_cast<std::size_t>(run.flow->grid().cells[0]);
   std::vector<Real> sum(n), count(n);
@@ -66,17 +66,28 @@ Real transverse_error(HardRun const& run) {
 }
 
 TEST(OddEven, DoesNotGrow) {
+  auto const check = [](int dimension, int n, int order, bool hybrid) {
+    HardCase const c = odd_even(dimension, n);
+    EXPECT_TRUE(evidence::at_most(c.id, c.name, text(order, hybrid), "transverse density error",
+                                  transverse_error(finished(c, order, hybrid)), 1e-4));
+  };
   for (int const order : tried())
-    for (bool const hybrid : {false, true})
-      EXPECT_TRUE(evidence::at_most("F21", "odd-even", text(order, hybrid), "transverse density error",
-                                    transverse_error(finished(odd_even(20), order, hybrid)), 1e-4));
+    for (bool const hybrid : {false, true}) check(2, 20, order, hybrid);
+  check(3, 8, 5, true);
 }
 
+/// The residue is chaotic: the worst of several seeds of the noise counts.
 TEST(SteadyShock, DoesNotBreakUp) {
+  auto const check = [](int dimension, int order, bool hybrid, unsigned seeds) {
+    Real worst = 0;
+    for (unsigned seed = 1; seed <= seeds; ++seed)
+      worst = max(worst, transverse_error(finished(steady_shock(dimension, order, seed), order, hybrid)));
+    EXPECT_TRUE(evidence::at_most("F22", "steady shock " + std::to_string(dimension) + "D", text(order, hybrid),
+                                  "transverse density error, worst of " + std::to_string(seeds), worst, 0.6));
+  };
   for (int const order : tried())
-    for (bool const hybrid : {false, true})
-      EXPECT_TRUE(evidence::at_most("F22", "steady shock", text(order, hybrid), "transverse density error",
-                                    transverse_error(finished(steady_shock(order, 1), order, hybrid)), 0.6));
+    for (bool const hybrid : {false, true}) check(2, order, hybrid, evidence::full() ? 4 : 2);
+  check(3, 5, true, 1);
 }
 
 TEST(Sedov, HasThePeaksOfTheTable) {
