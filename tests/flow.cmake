@@ -40,6 +40,8 @@ brisance_test(fluid_given_sides
   LABELS verification)
 set(hard_cases support/hard_cases.cpp support/held_cells.cpp support/shocks.cpp support/riemann.cpp)
 set(hard_cases support/hard_cases.cpp support/hostile_cases.cpp support/hard_run.cpp support/held_cells.cpp support/shocks.cpp support/riemann.cpp)
+set(hard_cases support/hard_cases.cpp support/hostile_cases.cpp support/hard_run.cpp support/held_cells.cpp
+    support/shocks.cpp support/riemann.cpp)
 brisance_test(fluid_stability
   SOURCES stability/fluid/matrix_test.cpp ${hard_cases}
   LINKS brisance::fluid
