@@ -44,7 +44,7 @@ struct EulerConfig {
   int order = 5;
   double cfl = 0.8;
   bool hybrid = true;
-  double shear_dissipation = 1.2;
+  double shear_dissipation = 1.3;
   Location at;
   static void keys(Keys<EulerConfig>& k) {
     k("order", &EulerConfig::order, "", "order of the OSMP flux").one_of({1, 3, 5, 7, 9, 11});

@@ -1,5 +1,6 @@
 #include "fluid/shock_sensor.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace brisance::fluid {
@@ -7,6 +8,9 @@ namespace {
 
 constexpr Index reach = 2;        // cells along d whose pressures a mark depends on
 constexpr Real steep_jump = 0.5;  // of the smaller pressure
+// Only shocks along the grid break up. A shock at an angle jumps along several directions: it is left alone from about
+// 9 degrees on, because shear dissipation along it costs accuracy (20 % on a spherical blast).
+constexpr Real oblique_jump = 0.15;  // of the jump along d
 constexpr int pressure_tag = 8, mark_tag = 9;
 
 /// rho c^2 / gamma: the pressure of an ideal gas, p + p_inf of a stiffened one; 0 in vacuum.
@@ -36,6 +40,16 @@ void pressure_row(Block const& block, Gas const& gas, Index j, Index k, Real* ou
 inline bool steep(Real a, Real b) {
   Real const least = min(a, b);
   return std::fabs(a - b) > steep_jump * least && least > 0;
+}
+
+/// Largest jump, in parts of the smaller pressure, at the faces along one direction that a mark depends on.
+Real largest_jump(Real const* p, std::ptrdiff_t step) {
+  Real largest = 0;
+  for (Index face = -1; face <= 2; ++face) {
+    Real const a = p[(face - 1) * step], b = p[face * step], least = min(a, b);
+    if (least > 0) largest = max(largest, std::fabs(a - b) / least);
+  }
+  return largest;
 }
 
 template <class T>
@@ -167,7 +181,27 @@ bool ShockSensor::mark(std::size_t position) {
         }
       }
   }
-  return found;
+  return found && drop_oblique(position);
+}
+
+bool ShockSensor::drop_oblique(std::size_t position) {
+  CellLayer<Real> const& p = pressure_[position];
+  CellLayer<std::uint8_t>& marks = marks_[position];
+  auto const dimension = static_cast<std::size_t>(dimension_);
+  bool left = false;
+  for (Index k = 0; k < p.size()[2]; ++k)
+    for (Index j = 0; j < p.size()[1]; ++j)
+      for (Index i = 0; i < p.size()[0]; ++i) {
+        std::uint8_t& mark = *marks.at(i, j, k);
+        if (mark == 0) continue;
+        std::array<Real, 3> jump{};
+        for (std::size_t d = 0; d < dimension; ++d) jump[d] = largest_jump(p.at(i, j, k), p.stride()[d]);
+        for (std::size_t d = 0; d < dimension; ++d)
+          for (std::size_t e = 0; e < dimension; ++e)
+            if (e != d && !(jump[e] < oblique_jump * jump[d])) mark = static_cast<std::uint8_t>(mark & ~(1u << d));
+        left = left || mark != 0;
+      }
+  return left;
 }
 
 bool ShockSensor::any(CellLayer<std::uint8_t> const& layer) const {

@@ -35,6 +35,8 @@ class ShockSensor {
  private:
   bool mark(std::size_t position);
   bool steep_at_ends(std::size_t position) const;
+  /// Takes the marks of a block away where the shock runs at an angle to the grid; returns whether any are left.
+  bool drop_oblique(std::size_t position);
   bool any(CellLayer<std::uint8_t> const& layer) const;
 
   int dimension_;
