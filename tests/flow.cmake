@@ -38,8 +38,6 @@ brisance_test(fluid_given_sides
   SOURCES verification/fluid/given_sides_test.cpp
   LINKS brisance::drivers
   LABELS verification)
-set(hard_cases support/hard_cases.cpp support/held_cells.cpp support/shocks.cpp support/riemann.cpp)
-set(hard_cases support/hard_cases.cpp support/hostile_cases.cpp support/hard_run.cpp support/held_cells.cpp support/shocks.cpp support/riemann.cpp)
 set(hard_cases support/hard_cases.cpp support/hostile_cases.cpp support/hard_run.cpp support/held_cells.cpp
     support/shocks.cpp support/riemann.cpp)
 brisance_test(fluid_stability
