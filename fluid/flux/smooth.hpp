@@ -75,11 +75,11 @@ struct SmoothWindow {
       acoustic = project(curvature, frame);
     }
   }
-  /// The bounds of a wave at rest stay as they are, exactly: no mass passes a wall.
+  /// The bounds of a wave at rest, to rounding of its speed, stay as they are: no mass passes a wall.
   template <bool Mixed, class Component>
   BRISANCE_INLINE SmoothField<Mixed, V> field(Wave<Order, V> const& wave, Component const& component,
                                               Mask<V> frozen) const {
-    V const widening = slack * min(signal, V(2e8) * wave.half_speed);
+    V const widening = select(wave.half_speed > V(1e-10) * signal, slack * signal, V(0.0));
     if constexpr (Order >= 5) return {component(acoustic, curvature), widening, frozen};
     return {V(0.0), widening, frozen};
   }

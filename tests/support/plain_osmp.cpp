@@ -167,8 +167,8 @@ double field(std::vector<PlainFace> const& faces, std::size_t f, std::size_t k, 
   double const av = speed * own, md = 0.5 * (av - s * speed * m_here);
   double const ul = room * jump(-s), lc = 0.5 * room * (jump(-s) + s * m_up);
   double slack = 0;
-  if (double const size = least_size(faces, f); options.smooth && size > 0)
-    slack = 0.2 * size * size / face.density * std::min(abs(face.u) + face.c, 1e8 * speed);
+  if (double const size = least_size(faces, f); options.smooth && size > 0 && speed > 2e-10 * (abs(face.u) + face.c))
+    slack = 0.2 * size * size / face.density * (abs(face.u) + face.c);
   double const low = std::max(std::min({0.0, av, md}), std::min({0.0, ul, lc}));
   double const high = std::min(std::max({0.0, av, md}), std::max({0.0, ul, lc}));
   return std::min(std::max(0.5 * total, low - slack), high + slack) - 0.5 * speed * own;
