@@ -3,7 +3,7 @@ brisance_test(fluid_sweep
   LINKS brisance::fluid
   LABELS unit)
 brisance_test(fluid_tubes
-  SOURCES verification/fluid/tube_test.cpp support/tube.cpp support/riemann.cpp
+  SOURCES verification/fluid/tube_test.cpp verification/fluid/smooth_option_test.cpp support/tube.cpp support/riemann.cpp
   LINKS brisance::fluid
   LABELS verification)
 target_compile_definitions(fluid_tubes PRIVATE BRISANCE_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/verification/fluid")

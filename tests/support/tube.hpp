@@ -13,7 +13,9 @@ enum class Ends { outflow, periodic, walls };
 class Tube {
  public:
   /// n cells of [low, high]; thresholds of vacuum from the largest density and pressure given.
-  Tube(int n, double low, double high, double gamma, Ends ends, double density_scale, double pressure_scale);
+  Tube(int n, double low, double high, double gamma, Ends ends, double density_scale, double pressure_scale)
+      : Tube(n, low, high, fluid::Gas{gamma}, ends, density_scale, pressure_scale) {}
+  Tube(int n, double low, double high, fluid::Gas gas, Ends ends, double density_scale, double pressure_scale);
   double h() const { return h_; }
   double edge(int i) const { return low_ + i * h_; }
   fluid::Gas const& gas() const { return gas_; }
@@ -25,6 +27,7 @@ class Tube {
   /// Courant number `cfl`, at most 0.3 in the first five steps.
   void run(int order, double end_time, double cfl = 0.9);
 
+  fluid::SweepOptions options;
   std::int64_t limited_faces = 0;
   std::uint64_t health = 0;
   int steps = 0;
