@@ -45,7 +45,10 @@ std::vector<Bench> all_benches(parallel::Comm& comm) {
                                 {"arithmetic.multiply_add", fluid::bench_multiply_add}};
   for (int order = 1; order <= 11; order += 2)
     benches.push_back({fmt::format("fluid.kernel.3d.order{}", order),
-                       [=](auto const& roofs) { return fluid::bench_sweep(order, 3, roofs); }});
+                       [=](auto const& roofs) { return fluid::bench_sweep(order, 3, false, roofs); }});
+  for (int order = 3; order <= 11; order += 2)
+    benches.push_back({fmt::format("fluid.kernel.3d.smooth.order{}", order),
+                       [=](auto const& roofs) { return fluid::bench_sweep(order, 3, true, roofs); }});
   auto const steps = [&](std::string const& name, int order, std::vector<int> const& cells) {
     benches.push_back(
         {name, [=, &comm](auto const& roofs) { return fluid::bench_steps(name, order, cells, comm, roofs); }});

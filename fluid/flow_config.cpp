@@ -240,6 +240,10 @@ void check(FlowConfig const& config) {
     check_region(config.region[r], "fluid.region[" + std::to_string(r) + "]");
   for (std::size_t c = 0; c < config.charge.size(); ++c)
     check_charge(config.charge[c], n, "fluid.charge[" + std::to_string(c) + "]");
+  demand(
+      !(config.euler && config.euler->smooth && config.gas.law == "jwl"), config.euler ? config.euler->at : config.at,
+      "fluid.euler.smooth: the terms of smooth flow are those of ideal and stiffened gas, not of the jwl law; set it "
+      "to false.");
   check_states(config);
 }
 

@@ -3,7 +3,7 @@ brisance_test(fluid_sweep
   LINKS brisance::fluid
   LABELS unit)
 brisance_test(fluid_tubes
-  SOURCES verification/fluid/tube_test.cpp verification/fluid/smooth_waves_test.cpp
+  SOURCES verification/fluid/tube_test.cpp verification/fluid/smooth_waves_test.cpp verification/fluid/smooth_option_test.cpp
           verification/fluid/interacting_waves_test.cpp verification/fluid/riemann_test.cpp support/tube.cpp support/riemann.cpp
           support/shocks.cpp
   LINKS brisance::fluid

@@ -29,13 +29,13 @@ BenchRow bench_triad(MachineRoofs const& roofs);
 /// `arithmetic.multiply_add`: an item is one multiply-add of one lane.
 BenchRow bench_multiply_add(MachineRoofs const& roofs);
 
-/// `fluid.kernel.<dimension>d.order<N>`: the kernel alone: periodic copies and one sweep per direction over one block
-/// of side^3 cells, smooth flow and a blast, with positivity. Item: cell-step. In fewer dimensions the cells are a set
-/// of planes or lines swept together. Whole steps: bench_steps.hpp. Expects: side >= 16. Cost: about 7 side^3 dimension
-/// / 3e7 s.
-BenchRow bench_sweep(int order, int dimension, MachineRoofs const& roofs, Index side = 96);
+/// `fluid.kernel.<dimension>d.order<N>`, `fluid.kernel.<dimension>d.smooth.order<N>` with the terms of `smooth`: the
+/// kernel alone: periodic copies and one sweep per direction over one block of side^3 cells, smooth flow and a blast,
+/// with positivity. Item: cell-step. In fewer dimensions the cells are a set of planes or lines swept together. Whole
+/// steps: bench_steps.hpp. Expects: side >= 16. Cost: about 7 side^3 dimension / 3e7 s.
+BenchRow bench_sweep(int order, int dimension, bool smooth, MachineRoofs const& roofs, Index side = 96);
 
 /// Operations of one cell in one sweep, counted on the text of the kernel (tests/unit/fluid/flux/operations_test.cpp).
-Real sweep_operations(int order);
+Real sweep_operations(int order, bool smooth = false);
 
 }  // namespace brisance::fluid

@@ -60,12 +60,18 @@ struct AllOrders {
   }
 };
 
+/// A field without the terms of `smooth` (smooth.hpp).
+struct NoSmoothTerms {
+  static constexpr bool present = false;
+};
+
 /// Orders 3 and up: sign-free part of G - second, from the window y(z) of third-order corrections p/2 seen from this
 /// face, upwind side at negative z. Horner's rule over the pairs (2q, 2q+1): sum_q = E_q + r_{2q+1} (dE_q + r_{2q+2}
 /// sum_{q+1}). `keep(q, sum)` gives 0 instead of the sum where a face stops below order 2q + 1. Source:
-/// theory/fluid.md 2.4, step 3.
-template <int Order, class V, class Keep>
-BRISANCE_INLINE V higher_orders(Wave<Order, V> const& wave, V const* y, Keep keep) {
+/// theory/fluid.md 2.4, step 3. `smooth.excess` is what its
+/// fourth-order term has beyond nu/4 E_2.
+template <int Order, class V, class Keep, class Smooth>
+BRISANCE_INLINE V higher_orders(Wave<Order, V> const& wave, V const* y, Keep keep, Smooth const& smooth) {
   V result = y[-1] - y[0];
   if constexpr (Order >= 5) {
     constexpr int top = Stencil<Order>::half;
@@ -84,6 +90,10 @@ BRISANCE_INLINE V higher_orders(Wave<Order, V> const& wave, V const* y, Keep kee
       sum = keep(q, sum);
     }
     result = fma(wave.ratio[4], sum, result);
+    if constexpr (Smooth::present) {
+      V const quarter_nu = wave.ratio[4] + V(0.5);
+      result = result + smooth.excess(quarter_nu * even_difference(2, y[0], here), wave.sign);
+    }
   }
   return result;
 }
@@ -91,9 +101,10 @@ BRISANCE_INLINE V higher_orders(Wave<Order, V> const& wave, V const* y, Keep kee
 /// Dissipative part of one field, G - |a| jump / 2, with G inside its bounds. `jump(z)` and `third(z)` give the jump
 /// and the third-order correction p/2 (sign of the wave included in neither) of the face z away, as seen from this
 /// face. Source: theory/fluid.md 2.4, 2.5. The bounds are written about the middle of [0, AV] and [0, UL], so that min
-/// and max of three values become one max of magnitudes.
-template <int Order, class V, class Jump, class Third, class Keep>
-BRISANCE_INLINE V field_flux(Wave<Order, V> const& wave, V jump_here, Jump jump, Third third, Keep keep) {
+/// and max of three values become one max of magnitudes; `smooth` widens them.
+template <int Order, class V, class Jump, class Third, class Keep, class Smooth = NoSmoothTerms>
+BRISANCE_INLINE V field_flux(Wave<Order, V> const& wave, V jump_here, Jump jump, Third third, Keep keep,
+                             Smooth const& smooth = {}) {
   V const centre = wave.half_speed * jump_here;
   if constexpr (Order == 1) {
     return -centre;
@@ -107,7 +118,7 @@ BRISANCE_INLINE V field_flux(Wave<Order, V> const& wave, V jump_here, Jump jump,
       y[-z] = select(wave.leftward, high, low);
       if (z < half) y[z] = select(wave.leftward, low, high);
     }
-    V const correction = fma(wave.second, jump_here, flip(higher_orders<Order>(wave, y, keep), wave.sign));
+    V const correction = fma(wave.second, jump_here, flip(higher_orders<Order>(wave, y, keep, smooth), wave.sign));
 
     V const low = jump(-1), high = jump(1);
     V const up = select(wave.leftward, high, low), down = select(wave.leftward, low, high);
@@ -115,8 +126,9 @@ BRISANCE_INLINE V field_flux(Wave<Order, V> const& wave, V jump_here, Jump jump,
     V const middle = wave.half_speed * curvature(jump_here - up, down - jump_here);
     V const leaving = wave.room * up, large = wave.room * curvature(up - up2, jump_here - up);
     V const size = abs(centre), size_up = abs(leaving);
-    V const lowest = max(centre - max(size, middle), leaving - max(size_up, -large));
-    V const highest = min(centre + max(size, -middle), leaving + max(size_up, large));
+    V lowest = max(centre - max(size, middle), leaving - max(size_up, -large));
+    V highest = min(centre + max(size, -middle), leaving + max(size_up, large));
+    if constexpr (Smooth::present) lowest = lowest - smooth.widening, highest = highest + smooth.widening;
     return min(max(correction, lowest), highest) - centre;
   }
 }

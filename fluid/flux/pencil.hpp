@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "fluid/flux/positivity.hpp"
+#include "fluid/flux/smooth.hpp"
 #include "fluid/flux/sweep.hpp"
 
 namespace brisance::fluid {
@@ -70,8 +71,9 @@ struct PencilReport {
   V flux_low[5], flux_high[5];
 };
 
-/// Order, value type, kind of gas and whether the pencils are runs between walls, fixed at compile time.
-template <int Order, class V, class Curve, bool Runs>
+/// Order, value type, kind of gas, whether the pencils are runs between walls and whether the terms of `smooth` count,
+/// fixed at compile time.
+template <int Order, class V, class Curve, bool Runs, bool Smooth>
 class Pencil {
  public:
   static constexpr int reach = Stencil<Order>::reach, half = Stencil<Order>::half, ghosts = Stencil<Order>::ghosts;
@@ -82,6 +84,7 @@ class Pencil {
              PencilReport<V>& report) {
     SweepConstants<V, Curve> const k(gas, sigma, options);
     faces_.restart(), jumps_.restart();
+    if constexpr (Smooth) smooth_faces_.restart();
     for (V& x : faces_[newest - 1].low_flux)
       x = V(0.0);  // of the first face's missing neighbour: no result depends on it
     Cell<V, Curve> left, right;
@@ -91,7 +94,7 @@ class Pencil {
       fetch(data, runs, f, right, k, report);
       push(left, right, data, f, k);
       left = right;
-      faces_.advance(), jumps_.advance();
+      advance();
     }
     for (Index f = 0; f <= data.n; ++f) {
       fetch(data, runs, f + reach, right, k, report);
@@ -108,7 +111,7 @@ class Pencil {
       }
       if (f > 0) update(difference, before, data, f - 1, k, gas, report);
       BRISANCE_UNROLL for (int n = 0; n < 5; ++n) before[n] = difference[n];
-      faces_.advance(), jumps_.advance();
+      advance();
     }
   }
 
@@ -117,8 +120,14 @@ class Pencil {
   static constexpr int middle = half < 2 ? 2 : half;  ///< of this face in the ring of jumps
   Ring<Face<V, Curve>, reach + 3> faces_;
   Ring<Jump<V>, reach + middle + 1> jumps_;
+  [[no_unique_address]] std::conditional_t<Smooth, Ring<SmoothFace<V>, reach + 3>, Nothing> smooth_faces_;
   Mask<V> vacuum_left_{}, vacuum_right_{};
   bool any_vacuum_left_ = false, any_vacuum_right_ = false;
+
+  BRISANCE_INLINE void advance() {
+    faces_.advance(), jumps_.advance();
+    if constexpr (Smooth) smooth_faces_.advance();
+  }
 
   BRISANCE_INLINE void fetch(PencilData const& data, RunData const* runs, Index c, Cell<V, Curve>& cell,
                              SweepConstants<V, Curve> const& k, PencilReport<V>& report) {
@@ -168,6 +177,7 @@ class Pencil {
       SweepConstants<V, Curve> const constants = k;
       empty_face<Order>(l, r, vacuum_left_ | vacuum_right_, previous, face, window, constants);
     }
+    if constexpr (Smooth) form_smooth_face<Order>(left, right, face, smooth_faces_[newest], k);
   }
 
   /// `speed` in the lanes where one of the cells c-1 and c is marked by a shock across the sweep, else 0. Marks reach
@@ -214,7 +224,22 @@ class Pencil {
     }
     V total[5];
     assemble(part, f, frame.q_entropy, total);
+    if constexpr (Smooth) add_coupling(f, smooth_faces_[here], least_size(), q, k, total);
     BRISANCE_UNROLL for (int n = 0; n < 5; ++n) difference[n] = f.above_low[n] + total[n];
+  }
+
+  /// Smallest size of the five faces around: negative if one of them is no smooth flow.
+  BRISANCE_INLINE V least_size() {
+    V least = smooth_faces_[here].size;
+    BRISANCE_UNROLL for (int z = -2; z <= 2; ++z) if (z != 0) least = min(least, smooth_faces_[here + z].size);
+    return least;
+  }
+  BRISANCE_INLINE auto smooth_window(Face<V, Curve> const& f, Frame<V> const& frame) {
+    if constexpr (Smooth)
+      return SmoothWindow<Order, V>(least_size(), smooth_faces_[here - 1], smooth_faces_[here], smooth_faces_[here + 1],
+                                    f, frame);
+    else
+      return NoSmoothWindow{};
   }
 
   /// Apart from the common path, which then stays short in the instruction cache.
@@ -243,6 +268,7 @@ class Pencil {
     }
     Face<V, Curve> const &low = faces_[here - 1], &high = faces_[here + 1];
     V const two(2.0);
+    auto const smooth = smooth_window(f, frame);
     auto run = [&](auto const& keep) __attribute__((always_inline)) {
       // One field: `component(a, y)` is its strength in a jump or correction y with the acoustic part a.
       auto field = [&](Wave<Order, V> const& wave, V strength, auto acoustic, auto const& component)
@@ -255,7 +281,8 @@ class Pencil {
           V const factor = flip(V(1.0 / 3) * wave.half_speed * fnma(nu, nu, V(1.0)), wave.sign);
           return select(steep, factor * (z == 0 ? strength : jump(z)), own);
         };
-        return field_flux<Order>(wave, strength, jump, third, keep);
+        return field_flux<Order>(wave, strength, jump, third, keep,
+                                 smooth.template field < Mixed && acoustic.value > (wave, component, steep));
       };
       using A = Acoustic<V>;
       part[0] = field(

@@ -14,6 +14,9 @@ struct SweepOptions {
   bool hybrid = false;  ///< acoustic waves with frozen coefficients next to pressure jumps (fluid/README.md)
   Real shear_dissipation =
       0;  ///< eta of the cure beside transverse shocks (theory/fluid.md 2.7); acts where marks are set
+  /// Orders >= 3: terms of smooth nonlinear flow (smooth.hpp). Third order for ideal and stiffened gas when cells hold
+  /// point values.
+  bool smooth = false;
 };
 
 /// Cells needed on either side of a pencil (theory/fluid.md 2.2).

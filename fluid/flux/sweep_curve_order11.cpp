@@ -1,3 +1,3 @@
 #include "fluid/flux/sweep_kernel.hpp"
 
-BRISANCE_INSTANTIATE_SWEEP(11, AnyCurve)
+BRISANCE_INSTANTIATE_SWEEP(11, AnyCurve, false)

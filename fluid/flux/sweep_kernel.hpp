@@ -7,9 +7,9 @@
 
 namespace brisance::fluid::detail {
 
-template <int Order, class Curve>
+template <int Order, class Curve, bool Smooth>
 SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, Gas const& gas, SweepOptions const& options);
-template <int Order, class Curve>
+template <int Order, class Curve, bool Smooth>
 SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas,
                            SweepOptions const& options);
 
@@ -68,7 +68,7 @@ inline void scatter(std::array<Real*, 5> const& u, Lanes const& lanes, std::ptrd
 }
 
 /// The sweep of one box: bundles of neighbours in x as they stand, all other pencils through scratch memory.
-template <int Order, class Curve>
+template <int Order, class Curve, bool Smooth>
 class BoxSweep {
  public:
   BoxSweep(CellBox const& box, int direction, Real sigma, Gas const& gas, SweepOptions const& options)
@@ -213,17 +213,17 @@ class BoxSweep {
   Index const n_;
   std::array<std::size_t, 5> const component_;
   std::array<Real*, 5> u_{}, result_{};
-  Pencil<Order, Pack, Curve, false> pencil_;
+  Pencil<Order, Pack, Curve, false, Smooth> pencil_;
   Pack signal_ = Pack(0.0);
   SweepReport report_;
 };
 
-template <int Order, class Curve>
+template <int Order, class Curve, bool Smooth>
 SweepReport sweep_box_of(CellBox const& box, int direction, Real sigma, Gas const& gas, SweepOptions const& options) {
-  return BoxSweep<Order, Curve>(box, direction, sigma, gas, options).run();
+  return BoxSweep<Order, Curve, Smooth>(box, direction, sigma, gas, options).run();
 }
 
-template <int Order, class Curve>
+template <int Order, class Curve, bool Smooth>
 SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, Real sigma, Gas const& gas,
                            SweepOptions const& options) {
   PencilData data{lines.n, {}, {}, 5 * width, 5 * width, valid_lanes, valid_lanes, valid_lanes};
@@ -236,7 +236,7 @@ SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, R
     for (std::size_t lane = 0; lane < width; ++lane) data.mark_offset[lane] = static_cast<std::ptrdiff_t>(lane);
   }
   RunData const runs{lines.flux, lines.pressure, lines.face_order};
-  Pencil<Order, Pack, Curve, true> pencil;
+  Pencil<Order, Pack, Curve, true, Smooth> pencil;
   PencilReport<Pack> seen;
   pencil.sweep(data, &runs, sigma, gas, options, seen);
   SweepReport report;
@@ -247,11 +247,11 @@ SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, R
   return report;
 }
 
-#define BRISANCE_INSTANTIATE_SWEEP(Order, Curve)                                                               \
-  namespace brisance::fluid::detail {                                                                          \
-  template SweepReport sweep_box_of<Order, Curve>(CellBox const&, int, Real, Gas const&, SweepOptions const&); \
-  template SweepReport sweep_lines_of<Order, Curve>(LineBundle const&, std::uint32_t, Real, Gas const&,        \
-                                                    SweepOptions const&);                                      \
+#define BRISANCE_INSTANTIATE_SWEEP(Order, Curve, Smooth)                                                               \
+  namespace brisance::fluid::detail {                                                                                  \
+  template SweepReport sweep_box_of<Order, Curve, Smooth>(CellBox const&, int, Real, Gas const&, SweepOptions const&); \
+  template SweepReport sweep_lines_of<Order, Curve, Smooth>(LineBundle const&, std::uint32_t, Real, Gas const&,        \
+                                                            SweepOptions const&);                                      \
   }
 
 }  // namespace brisance::fluid::detail

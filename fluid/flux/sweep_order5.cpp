@@ -1,3 +1,3 @@
 #include "fluid/flux/sweep_kernel.hpp"
 
-BRISANCE_INSTANTIATE_SWEEP(5, IdealCurve)
+BRISANCE_INSTANTIATE_SWEEP(5, IdealCurve, false)

@@ -27,6 +27,8 @@ struct PlainFace {
   double u = 0, v = 0, w = 0, enthalpy = 0, c = 1;
   double bend = 0;  // chi / Gamma
   bool steep = false;
+  double size = 0, density = 1;  // of `smooth`: size < 0 where the flow is none
+  State fourth{};                // Q
   State lambda{}, speed{}, jump{}, strength{}, third{}, low{}, mean{};
 
   State into(State const& x, double kappa) const {
@@ -86,7 +88,17 @@ PlainFace face_between(State const& ul, State const& ur, PlainCell const& l, Pla
       h[k] = (f.lambda[k] >= 0 ? 1 : -1) * f.speed[k] * (1 - nu * nu) * f.strength[k] / 3;
     }
     f.third = f.out_of(h);
+    for (std::size_t k = 0; k < 5; ++k) {
+      double const nu = std::min(1.0, sigma * f.speed[k]);
+      h[k] = f.speed[k] * nu * (1 - nu * nu) * f.strength[k] / 3;
+    }
+    f.fourth = f.out_of(h);
+    f.size =
+        abs(f.strength[0]) + abs(f.strength[4]) + abs(f.strength[1]) + (abs(f.strength[2]) + abs(f.strength[3])) / f.c;
+    double const root = 0.5 * (std::sqrt(ul[0]) + std::sqrt(ur[0]));
+    f.density = root * root;
   }
+  if (f.vacuum || std::abs(r.p - l.p) > 0.2 * std::min(l.scale, r.scale)) f.size = -1;
   f.steep = std::abs(r.p - l.p) > 0.2 * std::min(l.scale, r.scale) && (gas.curve.exponential() ? r.u < l.u : r.u > l.u);
   double const hlle_courant = gas.gamma <= 1.67 && !gas.curve.exponential() ? 0.905 : gas.kappa() <= 2 ? 0.8 : 0.5;
   bool const llf = f.vacuum || sigma * a > hlle_courant;
@@ -100,9 +112,24 @@ PlainFace face_between(State const& ul, State const& ur, PlainCell const& l, Pla
 double const binomial[6][9] = {
     {}, {1}, {1, -2, 1}, {1, -4, 6, -4, 1}, {1, -6, 15, -20, 15, -6, 1}, {1, -8, 28, -56, 70, -56, 28, -8, 1}};
 
-/// G - |a| jump / 2 of field k at face f. Source: theory/fluid.md 2.4 step 3, 2.5.
+double least_size(std::vector<PlainFace> const& faces, std::size_t f) {
+  double least = faces[f].size;
+  for (std::size_t z = f - 2; z <= f + 2; ++z) least = std::min(least, faces[z].size);
+  return least;
+}
+
+/// dt^2/6 [F''(F_x, F_x) - F''(U_x, A F_x)] of a gas without f'', in the closed form of fluid/README.md.
+State coupling(PlainFace const& f, double sigma, double kappa) {
+  State const& a = f.strength;
+  double const k3 = sigma * sigma * f.c * f.c * f.c / (6 * f.density), e = k3 * (a[4] - a[0]);
+  double const q = 0.5 * (f.u * f.u + f.v * f.v + f.w * f.w);
+  double const m = 4 * (2 - kappa) * k3 * f.c * a[0] * a[4], v = -e * a[2], w = -e * a[3];
+  return {0, m, v, w, f.u * m + f.v * v + f.w * w + e * (f.enthalpy - q) * a[1]};
+}
+
+/// G - |a| jump / 2 of field k at face f. Source: theory/fluid.md 2.4 step 3, 2.5; `smooth`: fluid/README.md.
 double field(std::vector<PlainFace> const& faces, std::size_t f, std::size_t k, int order, double sigma, double kappa,
-             bool hybrid) {
+             fluid::SweepOptions const& options) {
   PlainFace const& face = faces[f];
   double const speed = face.speed[k], nu = std::min(1.0, sigma * speed), own = face.strength[k];
   int const s = face.lambda[k] >= 0 ? 1 : -1;
@@ -110,7 +137,7 @@ double field(std::vector<PlainFace> const& faces, std::size_t f, std::size_t k, 
   if (order == 1 || face.vacuum) return -0.5 * speed * own;
   auto jump = [&](int z) { return face.into(faces[at(z)].jump, kappa)[k]; };
   bool frozen = false;
-  for (int z = -2; z <= 2; ++z) frozen = frozen || (hybrid && (k == 0 || k == 4) && faces[at(z)].steep);
+  for (int z = -2; z <= 2; ++z) frozen = frozen || (options.hybrid && (k == 0 || k == 4) && faces[at(z)].steep);
   auto third = [&](int z) {
     return frozen ? speed * (1 - nu * nu) / 3 * jump(z) : s * face.into(faces[at(z)].third, kappa)[k];
   };
@@ -125,6 +152,10 @@ double field(std::vector<PlainFace> const& faces, std::size_t f, std::size_t k, 
     if (o % 2 == 0) {
       ratio *= (nu - q) / o;
       total += ratio * even(q, 0);
+      if (o == 4 && options.smooth && !frozen) {
+        auto fourth = [&](int z) { return face.into(faces[at(z)].fourth, kappa)[k]; };
+        total += 0.25 * (fourth(-1) - 2 * fourth(0) + fourth(1) - nu * even(2, 0));
+      }
     } else {
       ratio *= (nu + q) / o;
       total -= ratio * (even(q, 0) - even(q, -s));
@@ -135,9 +166,12 @@ double field(std::vector<PlainFace> const& faces, std::size_t f, std::size_t k, 
   double const m_up = curvature(jump(-s) - jump(-s - 1), jump(-s + 1) - jump(-s));
   double const av = speed * own, md = 0.5 * (av - s * speed * m_here);
   double const ul = room * jump(-s), lc = 0.5 * room * (jump(-s) + s * m_up);
+  double slack = 0;
+  if (double const size = least_size(faces, f); options.smooth && size > 0 && speed > 2e-10 * (abs(face.u) + face.c))
+    slack = 0.2 * size * size / face.density * (abs(face.u) + face.c);
   double const low = std::max(std::min({0.0, av, md}), std::min({0.0, ul, lc}));
   double const high = std::min(std::max({0.0, av, md}), std::max({0.0, ul, lc}));
-  return std::min(std::max(0.5 * total, low), high) - 0.5 * speed * own;
+  return std::min(std::max(0.5 * total, low - slack), high + slack) - 0.5 * speed * own;
 }
 
 /// theta of theory/fluid.md 4.2 with the cheap test as its only trigger.
@@ -187,13 +221,17 @@ PlainSweep plain_sweep(PlainPencil const& pencil, int order, double sigma, Gas c
     std::size_t const i = first + f;
     int const own_order = pencil.face_order.empty() ? order : pencil.face_order[f];
     State d;
-    for (std::size_t k = 0; k < 5; ++k) d[k] = field(face, i, k, own_order, sigma, gas.kappa(), options.hybrid);
+    for (std::size_t k = 0; k < 5; ++k) d[k] = field(face, i, k, own_order, sigma, gas.kappa(), options);
     if (!pencil.marked.empty() && (pencil.marked[i - 1] || pencil.marked[i])) {
       double const least = std::min(options.shear_dissipation * std::max(cell[i - 1].c, cell[i].c), 1 / sigma);
       for (std::size_t k = 1; k < 4; ++k)
         d[k] -= 0.5 * std::max(0.0, least - std::abs(face[i].u)) * face[i].strength[k];
     }
     d = face[i].out_of(d);
+    if (options.smooth && own_order > 1 && least_size(face, i) >= 0) {
+      State const extra = coupling(face[i], sigma, gas.kappa());
+      for (std::size_t k = 0; k < 5; ++k) d[k] += extra[k];
+    }
     for (std::size_t k = 0; k < 5; ++k) d[k] += face[i].mean[k] - face[i].low[k];
     double const theta = face[i].vacuum ? 0 : blending({low_state(i - 1), low_state(i)}, d, sigma, gas);
     if (theta < 1 && !face[i].vacuum) ++result.limited;

@@ -87,6 +87,9 @@ TEST(FlowConfig, ErrorsNameWhatIsMissing) {
             std::string::npos);
   EXPECT_NE(scene_error_of("high = [1]\ncells = [20]\n[[charge]]\ncentre = [0.5]\nmass = 1").find("fluid.charge[0]"),
             std::string::npos);
+  EXPECT_NE(scene_error_of("high = [1]\ncells = [20]\neuler = { smooth = true }\ngas = { law = \"jwl\" }")
+                .find("fluid.euler.smooth"),
+            std::string::npos);
   EXPECT_NE(scene_error_of("high = [1, 1]\ncells = [20, 4]\neuler = { order = 11 }").find("fluid.cells[1] = 4"),
             std::string::npos);
 }

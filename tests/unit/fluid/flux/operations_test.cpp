@@ -59,48 +59,53 @@ State wave(Index c, Gas const& gas) {
                        1 + 0.4 * std::sin(0.2 * c + 1));
 }
 
-template <int Order, class V>
+template <int Order, bool Smooth, class V>
 std::vector<State> sweep_as(Index n, Real sigma, Gas const& gas, PencilReport<V>& report) {
   constexpr Index ghosts = Stencil<Order>::ghosts;
   std::vector<State> cells;
   for (Index c = -ghosts; c < n + ghosts; ++c) cells.push_back(wave(c, gas));
   PencilData data{n, {}, {}, 5, 5, 1, 1, 1};
   for (std::size_t q = 0; q < 5; ++q) data.in[q] = data.out[q] = cells[ghosts].data() + q;
-  Pencil<Order, V, IdealCurve, false> pencil;
+  Pencil<Order, V, IdealCurve, false, Smooth> pencil;
   pencil.sweep(data, nullptr, sigma, gas, {}, report);
   return {cells.begin() + ghosts, cells.end() - ghosts};
 }
 
-template <int Order>
+template <int Order, bool Smooth>
 void check_order() {
   Gas const gas{1.4, 1e-10, 1e-12};
   constexpr Index n = 24;
   Real const sigma = 0.4;
   PencilReport<Real> plain;
-  auto const one = sweep_as<Order, Real>(n, sigma, gas, plain);
+  auto const one = sweep_as<Order, Smooth, Real>(n, sigma, gas, plain);
   testing::FluxBox box({n, 3, 1}, 6);
   for (Index j = 0; j < 3; ++j)
     for (Index i = -6; i < n + 6; ++i) box.set(i, j, 0, wave(i, gas));
-  SweepReport const report = sweep_box(Order, box.view(), 0, sigma, gas);
+  SweepReport const report = sweep_box(Order, box.view(), 0, sigma, gas, {false, 0, Smooth});
   EXPECT_EQ(plain.signal, report.signal_max);
   for (Index i = 0; i < n; ++i) EXPECT_EQ(box.get(i, 1, 0), one[static_cast<std::size_t>(i)]) << Order << " " << i;
 
   PencilReport<Counted> counted;
   auto cost = [&](Index length) {
     Counted::operations = 0;
-    sweep_as<Order, Counted>(length, sigma, gas, counted);
+    sweep_as<Order, Smooth, Counted>(length, sigma, gas, counted);
     return Counted::operations;
   };
-  EXPECT_EQ(cost(41) - cost(40), sweep_operations(Order)) << "order " << Order;
+  EXPECT_EQ(cost(41) - cost(40), sweep_operations(Order, Smooth)) << "order " << Order << (Smooth ? " smooth" : "");
 }
 
 TEST(KernelText, EqualsThePacksOnADoubleAndCostsWhatBenchSays) {
-  check_order<1>();
-  check_order<3>();
-  check_order<5>();
-  check_order<7>();
-  check_order<9>();
-  check_order<11>();
+  check_order<1, false>();
+  check_order<3, false>();
+  check_order<5, false>();
+  check_order<7, false>();
+  check_order<9, false>();
+  check_order<11, false>();
+  check_order<3, true>();
+  check_order<5, true>();
+  check_order<7, true>();
+  check_order<9, true>();
+  check_order<11, true>();
 }
 
 }  // namespace

@@ -1,0 +1,3 @@
+#include "fluid/flux/sweep_kernel.hpp"
+
+BRISANCE_INSTANTIATE_SWEEP(9, AnyCurve, true)
