@@ -12,8 +12,8 @@
 namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
-  static std::vector<std::string> const names{"fluid.euler",   "solid.motion",       "solid.links",
-                                              "solid.gravity", "coupling.cut_cells", "output.gauges"};
+  static std::vector<std::string> const names{"fluid.euler", "fluid.viscosity", "fluid.gravity",      "solid.motion",
+                                              "solid.links", "solid.gravity",   "coupling.cut_cells", "output.gauges"};
   return names;
 }
 
@@ -153,6 +153,9 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   require(!coupled || w.dimension >= 2, Failure::scene, "coupling.cut_cells needs a fluid in 2 or 3 dimensions");
   if (coupled && !scene.fluid->euler)
     scene_error(scene.fluid->at, "coupling.cut_cells needs the effect fluid.euler: add euler = {} to [fluid]");
+  if (coupled && scene.fluid->viscosity)
+    scene_error(scene.fluid->viscosity->at,
+                "fluid.viscosity does not know the moving walls of coupling.cut_cells yet: leave one of the two out");
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
     w.surface = std::make_unique<solid::Surface>(*w.mesh);
@@ -171,6 +174,8 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
         std::make_unique<solid::Solid>(*w.mesh, *scene.solid, std::vector<int>(owner.begin() + blocks, owner.end()),
                                        comm, w.dimension, coupled ? w.surface.get() : nullptr);
   if (scene.fluid && scene.fluid->euler) w.euler = std::make_unique<fluid::Euler>(*scene.fluid->euler, *w.flow);
+  if (scene.fluid && scene.fluid->viscosity) w.viscosity = std::make_unique<fluid::Viscosity>(*scene.fluid, *w.flow);
+  if (scene.fluid && scene.fluid->gravity) w.gravity = std::make_unique<fluid::Gravity>(*scene.fluid->gravity, *w.flow);
   if (w.solid) w.dynamics = std::make_unique<solid::Dynamics>(*scene.solid, *w.solid);
   if (coupled) {
     fluid::GasState const& air = scene.fluid->ambient;
@@ -179,8 +184,12 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
                                              w.flow->gas().conserved(air.density, air.velocity, air.pressure), comm);
   }
   if (w.euler && w.cut_cells) w.euler->set_fluid_volume(w.cut_cells->fluid_volumes());
+  if (w.viscosity && w.cut_cells) w.viscosity->set_fluid_volume(w.cut_cells->fluid_volumes());
+  if (w.gravity && w.cut_cells) w.gravity->set_fluid_volume(w.cut_cells->fluid_volumes());
 
   if (w.euler) w.euler->join(w.plan);
+  if (w.viscosity) w.viscosity->join(w.plan);
+  if (w.gravity) w.gravity->join(w.plan);
   if (w.dynamics) w.dynamics->join(w.plan);
   if (w.cut_cells) w.cut_cells->join(w.plan);
   if (!scene.output.gauge.empty()) {

@@ -38,3 +38,7 @@ brisance_test(fluid_given_sides
   SOURCES verification/fluid/given_sides_test.cpp
   LINKS brisance::drivers
   LABELS verification)
+brisance_test(fluid_viscous
+  SOURCES verification/fluid/viscous_waves_test.cpp
+  LINKS brisance::fluid
+  LABELS verification)

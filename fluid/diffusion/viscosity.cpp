@@ -1,0 +1,139 @@
+#include "fluid/diffusion/viscosity.hpp"
+
+#include <cmath>
+
+namespace brisance::fluid {
+
+Viscosity::Viscosity(FlowConfig const& config, Flow& flow)
+    : config_(*config.viscosity),
+      flow_(flow),
+      transport_(config_, flow.gas()),
+      sides_(config, flow.gas(), flow.boundaries()),
+      ghosts_(flow.grid(), flow.owners(), flow.blocks(),
+              [this](Block& block, int direction, int side, Real time, GhostRange const& range) {
+                sides_.fill(block, direction, side, time, range);
+              },
+              flow.comm(), {1, true}),
+      block_stage_(transport_, flow.grid()) {
+  if (config_.time == "strang")
+    for (Block const& block : flow.blocks()) before_.emplace_back(BlockStage::before_size(block));
+}
+
+void Viscosity::join(Plan& plan) {
+  plan.effect("fluid.viscosity", [this] { return bytes(); });
+  if (config_.time == "strang") {
+    for (Stage const half : {Stage::diffuse, Stage::diffuse_again})
+      plan.at(half,
+              [this](Clock const& clock) { advance(0.5 * clock.dt, substeps(clock.dt), clock.time + 0.5 * clock.dt); });
+  } else {
+    plan.at(Stage::diffuse_again,
+            [this](Clock const& clock) { advance(clock.dt, substeps(clock.dt), clock.time + 0.5 * clock.dt); });
+  }
+  plan.limit(
+      "fluid.viscous", [this](Clock const&) { return stable_step(); },
+      [this](Real own, Real others) {
+        stable_ = own;
+        return own < 0.5 * others ? config_.max_substeps * own : own;
+      });
+  plan.health([this](Clock const&) { return verdict_; });
+  Plan::Keep keep;  // cells and ledger are the flow's
+  keep.save = [] {};
+  keep.restore = [this] { verdict_ = {}; };
+  keep.write = [](parallel::ArchiveWriter&) {};
+  keep.read = [](parallel::ArchiveReader&) {};
+  keep.digest = [](parallel::Digest&) {};
+  plan.keep(std::move(keep));
+}
+
+Real Viscosity::stable_step() const {
+  Grid const& grid = flow_.grid();
+  Gas const& gas = transport_.gas;
+  Real largest = 0;  // kinematic viscosity
+  for (Block const& block : flow_.blocks()) {
+    auto const [nx, ny, nz] = block.size();
+    CellIndex const first = block.first();
+    bool const cut = volume_.cuts(block.id());
+    for (Index k = 0; k < nz; ++k)
+      for (Index j = 0; j < ny; ++j)
+        for (Index i = 0; i < nx; ++i) {
+          State const u = block.load(i, j, k);
+          if (gas.vacuum(u)) continue;
+          if (cut && !(volume_({first[0] + i, first[1] + j, first[2] + k}) > 0)) continue;
+          Real const temperature = gas.temperature(u[0], gas.pressure(u));
+          largest = max(largest, transport_.viscosity(temperature) / u[0]);
+        }
+  }
+  Real inverse_squares = 0;
+  for (int d = 0; d < grid.dimension; ++d) inverse_squares += 1 / square(grid.spacing[d]);
+  Real const rate = largest * transport_.diffusivity_ratio * inverse_squares;
+  // Heun and Euler are stable to 1/2 of it: 0.45 for the half steps of strang and for the whole step of lie.
+  return rate > 0 ? (config_.time == "strang" ? 0.9 : 0.45) / rate : std::numeric_limits<Real>::infinity();
+}
+
+int Viscosity::substeps(Real dt) const { return static_cast<int>(max(1, std::ceil(dt / stable_ * (1 - 1e-12)))); }
+
+void Viscosity::advance(Real dt, int substeps, Real middle) {
+  middle_ = middle;
+  Real const tau = dt / substeps;
+  for (int s = 0; s < substeps; ++s) {
+    if (config_.time == "strang") {
+      stage(tau, DiffusionStage::heun_first, 0.5 * tau);
+      stage(tau, DiffusionStage::heun_second, 0.5 * tau);
+    } else {
+      stage(tau, DiffusionStage::euler, tau);
+    }
+  }
+}
+
+void Viscosity::exchange() {
+  for (int d = 0; d < flow_.grid().dimension; ++d) {
+    ghosts_.start(d, middle_);
+    ghosts_.finish(d);
+  }
+}
+
+void Viscosity::stage(Real tau, DiffusionStage stage, Real weight) {
+  Grid const& grid = flow_.grid();
+  exchange();
+  for (std::size_t b = 0; b < flow_.blocks().size(); ++b) {
+    Block& block = flow_.blocks()[b];
+    std::array<bool, 6> sides{};
+    for (int d = 0; d < grid.dimension; ++d)
+      for (int side = 0; side < 2; ++side)
+        sides[static_cast<std::size_t>(2 * d + side)] = grid.neighbour(block.id(), d, side) < 0;
+    std::array<State, 6> through{};
+    std::span<Real> const before = before_.empty() ? std::span<Real>() : std::span<Real>(before_[b]);
+    if (block_stage_.run(block, tau, stage, before, sides, through) > 0) locate(block);
+    for (int s = 0; s < 6; ++s)
+      if (sides[static_cast<std::size_t>(s)])
+        flow_.ledger().add(s / 2, s % 2, weight, grid.face_area(s / 2), through[static_cast<std::size_t>(s)]);
+  }
+}
+
+void Viscosity::locate(Block const& block) {
+  if (!verdict_.good) return;
+  auto const [nx, ny, nz] = block.size();
+  for (Index k = 0; k < nz; ++k)
+    for (Index j = 0; j < ny; ++j)
+      for (Index i = 0; i < nx; ++i) {
+        State const u = block.load(i, j, k);
+        Real const twice = 2 * u[0] * u[4] - (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]);
+        if (twice >= -2e-13 * std::abs(u[0] * u[4])) continue;
+        CellIndex const c{block.first()[0] + i, block.first()[1] + j, block.first()[2] + k};
+        if (volume_.cuts(block.id()) && volume_(c) < flow_.grid().cell_volume()) continue;
+        Vec3 const x = flow_.grid().centre(c);
+        verdict_ = {false, "negative internal energy after a viscous step in cell (" + std::to_string(c[0]) + ", " +
+                               std::to_string(c[1]) + ", " + std::to_string(c[2]) + ") at (" + std::to_string(x.x) +
+                               ", " + std::to_string(x.y) + ", " + std::to_string(x.z) + ") m, rank " +
+                               std::to_string(flow_.comm().rank())};
+        return;
+      }
+}
+
+std::size_t Viscosity::bytes() const {
+  std::size_t n = ghosts_.bytes() + block_stage_.bytes();
+  for (std::vector<Real> const& b : before_) n += b.capacity() * sizeof(Real);
+  return n;
+}
+
+}  // namespace brisance::fluid
