@@ -20,8 +20,8 @@ class FluidRun {
     if (config.gravity) gravity = std::make_unique<fluid::Gravity>(*config.gravity, *flow);
     if (viscosity) viscosity->join(plan);
     if (gravity) gravity->join(plan);
-    simulation = std::make_unique<Simulation>(
-        plan, comm, TimeControl{end, fluid::steps_per_pair(flow->grid().dimension), 0});
+    simulation =
+        std::make_unique<Simulation>(plan, comm, TimeControl{end, fluid::steps_per_pair(flow->grid().dimension), 0});
   }
   /// To the end of the run; the cells must be filled.
   void run() {
