@@ -4,6 +4,17 @@
 
 namespace brisance::fluid {
 
+Real viscous_time_step(ViscosityConfig const& config, Transport const& transport, Grid const& grid, Real kinematic) {
+  Real inverse_squares = 0;
+  for (int d = 0; d < grid.dimension; ++d) inverse_squares += 1 / square(grid.spacing[d]);
+  Real const rate = kinematic * transport.diffusivity_ratio * inverse_squares;
+  return rate > 0 ? (config.time == "strang" ? 0.9 : 0.45) / rate : std::numeric_limits<Real>::infinity();
+}
+
+Real sub_cycled_limit(ViscosityConfig const& config, Real stable, Real others) {
+  return stable < 0.5 * others ? config.max_substeps * stable : stable;
+}
+
 Viscosity::Viscosity(FlowConfig const& config, Flow& flow)
     : config_(*config.viscosity),
       flow_(flow),
@@ -33,7 +44,7 @@ void Viscosity::join(Plan& plan) {
       "fluid.viscous", [this](Clock const&) { return stable_step(); },
       [this](Real own, Real others) {
         stable_ = own;
-        return own < 0.5 * others ? config_.max_substeps * own : own;
+        return sub_cycled_limit(config_, own, others);
       });
   plan.health([this](Clock const&) { return verdict_; });
   Plan::Keep keep;  // cells and ledger are the flow's
@@ -46,7 +57,6 @@ void Viscosity::join(Plan& plan) {
 }
 
 Real Viscosity::stable_step() const {
-  Grid const& grid = flow_.grid();
   Gas const& gas = transport_.gas;
   Real largest = 0;  // kinematic viscosity
   for (Block const& block : flow_.blocks()) {
@@ -63,11 +73,7 @@ Real Viscosity::stable_step() const {
           largest = max(largest, transport_.viscosity(temperature) / u[0]);
         }
   }
-  Real inverse_squares = 0;
-  for (int d = 0; d < grid.dimension; ++d) inverse_squares += 1 / square(grid.spacing[d]);
-  Real const rate = largest * transport_.diffusivity_ratio * inverse_squares;
-  // Heun and Euler are stable to 1/2 of it: 0.45 for the half steps of strang and for the whole step of lie.
-  return rate > 0 ? (config_.time == "strang" ? 0.9 : 0.45) / rate : std::numeric_limits<Real>::infinity();
+  return viscous_time_step(config_, transport_, flow_.grid(), largest);
 }
 
 int Viscosity::substeps(Real dt) const { return static_cast<int>(max(1, std::ceil(dt / stable_ * (1 - 1e-12)))); }

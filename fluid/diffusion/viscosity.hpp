@@ -10,6 +10,14 @@
 
 namespace brisance::fluid {
 
+/// The largest step that is stable with this kinematic viscosity, s: dt nu max(4/3, gamma / Pr) sum h^-2 <= 0.9, so
+/// that a half step uses 0.45 of Heun's 1/2; 0.45 for the whole steps of `lie`. Infinite for 0.  Source:
+/// theory/fluid.md 5.2.
+Real viscous_time_step(ViscosityConfig const& config, Transport const& transport, Grid const& grid, Real kinematic);
+
+/// What that step leaves to the others, which ask for `others`: below half of them the viscous terms sub-cycle.
+Real sub_cycled_limit(ViscosityConfig const& config, Real stable, Real others);
+
 /// One step is V(dt/2) S(dt) V(dt/2), S the sweeps and V a Heun step (`strang`), or S(dt) followed by one Euler step
 /// V(dt)
 /// (`lie`). V is sub-cycled where its limit is below half the step of the others.  Source: theory/fluid.md 5.2.
