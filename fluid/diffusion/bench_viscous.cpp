@@ -37,8 +37,8 @@ Block smooth_block(Grid const& grid, Gas const& gas) {
 }  // namespace
 
 BenchRow bench_viscous(int dimension, MachineRoofs const& roofs) {
-  Index const side = dimension == 3 ? 96 : 64;
-  std::size_t const blocks = dimension == 3 ? 1 : 256;
+  Index const side = dimension == 3 ? 48 : 64;
+  std::size_t const blocks = dimension == 3 ? 8 : 256;
   Grid grid;
   grid.dimension = dimension;
   for (std::size_t d = 0; d < 3; ++d) {
