@@ -153,9 +153,6 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   require(!coupled || w.dimension >= 2, Failure::scene, "coupling.cut_cells needs a fluid in 2 or 3 dimensions");
   if (coupled && !scene.fluid->euler)
     scene_error(scene.fluid->at, "coupling.cut_cells needs the effect fluid.euler: add euler = {} to [fluid]");
-  if (coupled && scene.fluid->viscosity)
-    scene_error(scene.fluid->viscosity->at,
-                "fluid.viscosity does not know the moving walls of coupling.cut_cells yet: leave one of the two out");
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
     w.surface = std::make_unique<solid::Surface>(*w.mesh);
@@ -184,8 +181,19 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
                                              w.flow->gas().conserved(air.density, air.velocity, air.pressure), comm);
   }
   if (w.euler && w.cut_cells) w.euler->set_fluid_volume(w.cut_cells->fluid_volumes());
-  if (w.viscosity && w.cut_cells) w.viscosity->set_fluid_volume(w.cut_cells->fluid_volumes());
-  if (w.gravity && w.cut_cells) w.gravity->set_fluid_volume(w.cut_cells->fluid_volumes());
+  if (w.viscosity && w.cut_cells) {
+    w.viscosity->set_fluid_volume(w.cut_cells->fluid_volumes());
+    w.viscosity->set_walls(&w.cut_cells->add_viscosity(w.viscosity->transport()));
+  }
+  if (w.gravity && w.cut_cells) {
+    w.gravity->set_fluid_volume(w.cut_cells->fluid_volumes());
+    w.cut_cells->expect_sources();
+  }
+  if (coupled && scene.coupling->cut_cells->wall && !scene.fluid->viscosity)
+    scene_error(
+        scene.coupling->cut_cells->wall->at,
+        "coupling.cut_cells.wall needs the effect fluid.viscosity: without it the gas slips along the bodies. Add "
+        "viscosity = {} to [fluid], or leave the wall out");
 
   if (w.euler) w.euler->join(w.plan);
   if (w.viscosity) w.viscosity->join(w.plan);

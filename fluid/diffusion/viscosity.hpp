@@ -18,6 +18,17 @@ Real viscous_time_step(ViscosityConfig const& config, Transport const& transport
 /// What that step leaves to the others, which ask for `others`: below half of them the viscous terms sub-cycle.
 Real sub_cycled_limit(ViscosityConfig const& config, Real stable, Real others);
 
+/// Walls inside the grid, as the viscous terms meet them.
+struct ViscousWalls {
+  virtual ~ViscousWalls() = default;
+  virtual bool handles(Index block) const = 0;
+  /// Collective. Sets the mirror states of solid cells, before the ghosts of each stage are filled.
+  virtual void prepare() = 0;
+  /// Receives the fluxes of one stage of a block that it handles, which count for `weight` s. What crosses sides of the
+  /// domain there is its own affair.
+  virtual FaceSink& sink(Index block, Real weight) = 0;
+};
+
 /// One step is V(dt/2) S(dt) V(dt/2), S the sweeps and V a Heun step (`strang`), or S(dt) followed by one Euler step
 /// V(dt)
 /// (`lie`). V is sub-cycled where its limit is below half the step of the others.  Source: theory/fluid.md 5.2.
@@ -29,6 +40,10 @@ class Viscosity : public Effect {
 
   /// Fluid volume of a cell where walls cut cells: cells without any neither limit the step nor are judged.
   void set_fluid_volume(FluidVolume volume) { volume_ = std::move(volume); }
+
+  /// Null: no walls. Not owned. Cut cells exchange once a step: with walls there is no sub-cycling.
+  void set_walls(ViscousWalls* walls) { walls_ = walls; }
+  Transport const& transport() const { return transport_; }
 
   /// Local. The largest step the scheme is stable with, s; infinite where no cell holds gas.
   Real stable_step() const;
@@ -51,6 +66,7 @@ class Viscosity : public Effect {
   BlockStage block_stage_;
   Real middle_ = 0;
   FluidVolume volume_;
+  ViscousWalls* walls_ = nullptr;
   std::vector<std::vector<Real>> before_;                ///< per block: what Heun's second stage needs of U_0
   Real stable_ = std::numeric_limits<Real>::infinity();  ///< stable_step() over all ranks at the start of the pair
   Verdict verdict_;

@@ -4,20 +4,27 @@
 
 namespace brisance::fluid {
 
-State WallMirror::operator()(State const& u, GhostCell const& ghost) const {
+State wall_mirror(State const& u, Gas const& gas, bool slip, std::optional<double> const& temperature,
+                  Vec3 const& wall_velocity, Vec3 const& normal) {
   Real const pressure = gas.pressure(u);
   if (!(pressure > 0)) return u;  // vacuum feels no wall
   Vec3 velocity = Vec3{u[1], u[2], u[3]} / u[0];
-  if (wall.slip)
-    velocity[ghost.direction] = -velocity[ghost.direction];
+  if (slip)
+    velocity -= 2 * dot(velocity - wall_velocity, normal) * normal;
   else
-    velocity = 2.0 * wall.velocity - velocity;
+    velocity = 2.0 * wall_velocity - velocity;
   Real density = u[0];
-  if (wall.temperature) {
-    Real const wanted = *wall.temperature, temperature = gas.temperature(density, pressure);
-    density = pressure / (gas.gas_constant * max(0.2 * wanted, 2 * wanted - temperature));
+  if (temperature) {
+    Real const mirrored = 2 * *temperature - gas.temperature(density, pressure);
+    density = pressure / (gas.gas_constant * max(0.2 * *temperature, mirrored));
   }
   return gas.conserved(density, velocity, pressure);
+}
+
+State WallMirror::operator()(State const& u, GhostCell const& ghost) const {
+  Vec3 normal;
+  normal[ghost.direction] = 1;
+  return wall_mirror(u, gas, wall.slip, wall.temperature, wall.velocity, normal);
 }
 
 ViscousSides::ViscousSides(FlowConfig const& config, Gas const& gas, Boundaries const& boundaries)

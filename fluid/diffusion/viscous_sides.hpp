@@ -10,9 +10,14 @@
 
 namespace brisance::fluid {
 
-/// Ghost g mirrored from the cell m across the wall: u_g = 2 u_w - u_m; T_g = max(0.2 T_w, 2 T_w - T_m) where the wall
-/// has a temperature, else T_m; p_g = p_m. The mean velocity at the face is then that of the wall, and its work exact.
-/// A wall that lets the gas slip turns the normal velocity only.  Source: theory/fluid.md 5.3.
+/// State g mirrored from the state m across a wall of velocity u_w and, if given, temperature T_w: u_g = 2 u_w - u_m,
+/// or only its part along the unit `normal` where the gas slips; T_g = max(0.2 T_w, 2 T_w - T_m), else T_m; p_g = p_m.
+/// Source: theory/fluid.md 5.3.  Units: m/s, K.
+State wall_mirror(State const& u, Gas const& gas, bool slip, std::optional<double> const& temperature,
+                  Vec3 const& wall_velocity, Vec3 const& normal);
+
+/// The same for the ghosts of a side of the domain. The mean velocity at the face is that of the wall, and its work
+/// exact.
 struct WallMirror {
   WallConfig wall;
   Gas gas;
