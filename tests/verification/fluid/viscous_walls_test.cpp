@@ -159,6 +159,59 @@ TEST(Poiseuille, VelocityIsOfSecondOrder) {
   }
 }
 
+/// The boundary layer of a wall set in motion at t = 0 (Stokes, Rayleigh): u = U erfc(y / 2 sqrt(nu t)), here from t_0
+/// on, so slow that the gas stays as it is. Mean error over U.
+Real rayleigh(int normal, int cells, int order, std::string const& time) {
+  constexpr Real speed = 0.1, nu = 0.02, start = 0.2, end = 1;  // the layer grows from 0.13 to 0.28
+  FlowConfig config = channel(normal, normal + 1, cells, order);
+  config.viscosity->dynamic_viscosity = nu;
+  config.viscosity->time = time;
+  int const flow = (normal + 1) % 3;
+  std::optional<WallConfig>* const wall = normal == 0 ? &config.wall.x_low : &config.wall.y_low;
+  (*wall)->velocity[flow] = speed;
+  testing::FluidRun run(config, end - start, testing::comm());
+  auto const exact = [&](Real y, Real t) {
+    Real const width = 2 * std::sqrt(nu * t);  // with the mirror image in the wall at rest at y = 1
+    return speed * (std::erfc(y / width) - std::erfc((2 - y) / width));
+  };
+  Gas const& gas = run.flow->gas();
+  fill(*run.flow, [&](CellIndex c) {
+    return testing::gauss_mean(run.flow->grid(), c, [&](Vec3 const& x) {
+      Vec3 velocity;
+      velocity[flow] = exact(x[normal], start);
+      return gas.conserved(1, velocity, wall_temperature);
+    });
+  });
+  run.run();
+  Real error = 0, count = 0;
+  run.for_cells([&](CellIndex c, State const& u) {
+    State const mean = testing::gauss_mean(run.flow->grid(), c, [&](Vec3 const& x) {
+      return State{1, exact(x[normal], end), 0, 0, 0};
+    });
+    error += std::abs(u[static_cast<std::size_t>(1 + flow)] - mean[1]), count += 1;
+  });
+  return error / (count * speed);
+}
+
+TEST(BoundaryLayer, OfAMovingWallGrowsInSecondOrder) {
+  Real const reference[3] = {9.75e-4, 2.47e-4, 6.17e-5};
+  for (int const order : {1, 5, 11}) {
+    Real error[3];
+    for (int n = 0; n < 3; ++n) {
+      error[n] = rayleigh(0, 16 << n, order, "strang");
+      EXPECT_TRUE(evidence::at_most("F26", "boundary layer of a moving wall", variant(order, 16 << n),
+                                    "mean error of velocity over that of the wall", error[n], 1.1 * reference[n]));
+    }
+    EXPECT_TRUE(evidence::near("F26", "boundary layer of a moving wall", variant(order, 64), "observed order",
+                               std::log2(error[1] / error[2]), 2, 0.05));
+  }
+  EXPECT_TRUE(evidence::at_most("F26", "boundary layer of a moving wall", variant(5, 32, "; 2D across y"),
+                                "mean error of velocity over that of the wall", rayleigh(1, 32, 5, "strang"),
+                                1.1 * reference[1]));
+  EXPECT_TRUE(evidence::at_most("F26", "boundary layer of a moving wall", variant(5, 64, "; lie"),
+                                "mean error of velocity over that of the wall", rayleigh(0, 64, 5, "lie"), 2.64e-5));
+}
+
 /// Couette flow of a gas whose viscosity follows its temperature. The stress tau and the flux of total energy are the
 /// same everywhere, so T is a quadratic of u whatever the viscosity (Crocco), and y(u) = integral of mu(T(u)) du / tau.
 class SutherlandCouette {
