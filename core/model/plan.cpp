@@ -38,12 +38,12 @@ char const* name(Stage stage) {
       return "mix";
     case Stage::fill:
       return "fill";
+    case Stage::source_again:
+      return "source_again";
     case Stage::forces:
       return "forces";
     case Stage::kick_again:
       return "kick_again";
-    case Stage::source_again:
-      return "source_again";
     case Stage::count:
       break;
   }

@@ -22,9 +22,9 @@ void Simulation::step() {
   run(Stage::flow_update);
   run(Stage::mix);
   run(Stage::fill);
+  run(Stage::source_again);
   run(Stage::forces);
   run(Stage::kick_again);
-  run(Stage::source_again);
   clock_.time += clock_.dt;
   clock_.step += 1;
 }

@@ -18,9 +18,9 @@ enum class Stage {
   flow_update,    ///< contents of cut cells
   mix,            ///< small cut cells, conservatively
   fill,           ///< the new geometry becomes the record; mirror states
+  source_again,   ///< second half of the sources, on the state at t^{n+1}
   forces,         ///< internal forces at t^{n+1}
   kick_again,     ///< V^{n+1}
-  source_again,   ///< second half of the sources, on the state at t^{n+1}
   count
 };
 
