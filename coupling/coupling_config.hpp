@@ -7,10 +7,22 @@
 
 namespace brisance::coupling {
 
+/// How the bodies meet a viscous gas (theory/fluid.md 5.3).
+struct BodyWallConfig {
+  bool slip = false;
+  std::optional<double> temperature;  // K; not given: adiabatic
+  Location at;
+  static void keys(Keys<BodyWallConfig>& k) {
+    k("slip", &BodyWallConfig::slip, "", "does the gas slide along the bodies?");
+    k("temperature", &BodyWallConfig::temperature, "K", "of the bodies; not given: no heat passes").above(0);
+  }
+};
+
 /// Moving cut cells, time coupling `lag` (theory/coupling.md 1.8, 5).
 struct CutCellsConfig {
   double small_cell = 0.5;
   std::string wall_pressure = "half_riemann";
+  std::optional<BodyWallConfig> wall;
   static void keys(Keys<CutCellsConfig>& k) {
     k("small_cell", &CutCellsConfig::small_cell, "1", "cells with less than this fraction of fluid are merged")
         .above(0)
@@ -18,6 +30,8 @@ struct CutCellsConfig {
     k("wall_pressure", &CutCellsConfig::wall_pressure, "",
       "pressure on the wall: that of the cell, or corrected by the half-Riemann factor chi*")
         .one_of({"cell", "half_riemann"});
+    k("wall", &CutCellsConfig::wall, "",
+      "fluid.viscosity: friction and heat at the bodies; not given: they hold the gas and pass no heat");
   }
 };
 

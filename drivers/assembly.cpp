@@ -12,8 +12,8 @@
 namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
-  static std::vector<std::string> const names{"fluid.euler",   "solid.motion",       "solid.links",
-                                              "solid.gravity", "coupling.cut_cells", "output.gauges"};
+  static std::vector<std::string> const names{"fluid.euler", "fluid.viscosity", "fluid.gravity",      "solid.motion",
+                                              "solid.links", "solid.gravity",   "coupling.cut_cells", "output.gauges"};
   return names;
 }
 
@@ -171,6 +171,8 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
         std::make_unique<solid::Solid>(*w.mesh, *scene.solid, std::vector<int>(owner.begin() + blocks, owner.end()),
                                        comm, w.dimension, coupled ? w.surface.get() : nullptr);
   if (scene.fluid && scene.fluid->euler) w.euler = std::make_unique<fluid::Euler>(*scene.fluid->euler, *w.flow);
+  if (scene.fluid && scene.fluid->viscosity) w.viscosity = std::make_unique<fluid::Viscosity>(*scene.fluid, *w.flow);
+  if (scene.fluid && scene.fluid->gravity) w.gravity = std::make_unique<fluid::Gravity>(*scene.fluid->gravity, *w.flow);
   if (w.solid) w.dynamics = std::make_unique<solid::Dynamics>(*scene.solid, *w.solid);
   if (coupled) {
     fluid::GasState const& air = scene.fluid->ambient;
@@ -179,8 +181,23 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
                                              w.flow->gas().conserved(air.density, air.velocity, air.pressure), comm);
   }
   if (w.euler && w.cut_cells) w.euler->set_fluid_volume(w.cut_cells->fluid_volumes());
+  if (w.viscosity && w.cut_cells) {
+    w.viscosity->set_fluid_volume(w.cut_cells->fluid_volumes());
+    w.viscosity->set_walls(&w.cut_cells->add_viscosity(w.viscosity->transport()));
+  }
+  if (w.gravity && w.cut_cells) {
+    w.gravity->set_fluid_volume(w.cut_cells->fluid_volumes());
+    w.cut_cells->expect_sources();
+  }
+  if (coupled && scene.coupling->cut_cells->wall && !scene.fluid->viscosity)
+    scene_error(
+        scene.coupling->cut_cells->wall->at,
+        "coupling.cut_cells.wall needs the effect fluid.viscosity: without it the gas slips along the bodies. Add "
+        "viscosity = {} to [fluid], or leave the wall out");
 
   if (w.euler) w.euler->join(w.plan);
+  if (w.viscosity) w.viscosity->join(w.plan);
+  if (w.gravity) w.gravity->join(w.plan);
   if (w.dynamics) w.dynamics->join(w.plan);
   if (w.cut_cells) w.cut_cells->join(w.plan);
   if (!scene.output.gauge.empty()) {

@@ -10,9 +10,11 @@
 #include "core/solid/surface.hpp"
 #include "coupling/cut_cells/cut_cells.hpp"
 #include "drivers/scene.hpp"
+#include "fluid/diffusion/viscosity.hpp"
 #include "fluid/euler.hpp"
 #include "fluid/flow.hpp"
 #include "fluid/gauges/gauges.hpp"
+#include "fluid/source/gravity.hpp"
 #include "parallel/partition.hpp"
 
 namespace brisance::drivers {
@@ -28,6 +30,8 @@ struct World {
   std::unique_ptr<fluid::Flow> flow;
   std::unique_ptr<solid::Solid> solid;
   std::unique_ptr<fluid::Euler> euler;
+  std::unique_ptr<fluid::Viscosity> viscosity;
+  std::unique_ptr<fluid::Gravity> gravity;
   std::unique_ptr<solid::Dynamics> dynamics;
   std::unique_ptr<coupling::CutCells> cut_cells;
   std::unique_ptr<fluid::Gauges> gauges;

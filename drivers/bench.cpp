@@ -13,6 +13,7 @@
 #include "coupling/geometry/bench.hpp"
 #include "drivers/commands.hpp"
 #include "fluid/bench_steps.hpp"
+#include "fluid/diffusion/bench_viscous.hpp"
 #include "fluid/flux/bench_sweep.hpp"
 
 namespace brisance::drivers {
@@ -59,6 +60,13 @@ std::vector<Bench> all_benches(parallel::Comm& comm) {
     steps(fmt::format("fluid.1d.order{}", order), order, {96 * 96 * 96});
     steps(fmt::format("fluid.1d.order{}.short", order), order, {10000});
   }
+  for (int dimension = 1; dimension <= 3; ++dimension)
+    for (int order = 1; order <= 11; order += 2)
+      benches.push_back({fmt::format("fluid.{}d.order{}", dimension, order),
+                         [=](auto const& roofs) { return fluid::bench_sweep(order, dimension, roofs); }});
+  for (int dimension = 2; dimension <= 3; ++dimension)
+    benches.push_back({fmt::format("fluid.{}d.viscous", dimension),
+                       [=](auto const& roofs) { return fluid::bench_viscous(dimension, roofs); }});
   benches.push_back({"solid.links.cache", [](auto const& roofs) { return link_row("solid.links.cache", 10, roofs); }});
   benches.push_back(
       {"solid.links.memory", [](auto const& roofs) { return link_row("solid.links.memory", 96, roofs); }});

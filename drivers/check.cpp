@@ -43,6 +43,20 @@ FluidStep initial_acoustic_step(fluid::FlowConfig const& flow, fluid::Grid const
   return best;
 }
 
+/// Limit of the viscous terms for the initial states; a run sub-cycles before it shortens the step.
+Real initial_viscous_step(fluid::FlowConfig const& flow, fluid::Grid const& grid) {
+  Real largest = 0;
+  if (!flow.viscosity) return std::numeric_limits<Real>::infinity();
+  fluid::Transport const transport(*flow.viscosity, fluid::make_gas(flow));
+  auto const consider = [&](Real density, Real pressure) {
+    if (density > 0)
+      largest = max(largest, transport.viscosity(transport.gas.temperature(density, pressure)) / density);
+  };
+  consider(flow.ambient.density, flow.ambient.pressure);
+  for (fluid::RegionConfig const& r : flow.region) consider(r.density, r.pressure);
+  return fluid::viscous_time_step(*flow.viscosity, transport, grid, largest);
+}
+
 /// Cell-steps per second of this machine, measured on a small box in a few milliseconds.
 Real measured_rate(fluid::FlowConfig const& config, fluid::Grid const& grid) {
   fluid::Grid small = grid;
@@ -112,8 +126,13 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
       scene.fluid ? initial_acoustic_step(*scene.fluid, *grid, world->flow->gas(), charges) : FluidStep{};
   std::vector<Real> links_dt{world->solid ? world->solid->stable_step() : std::numeric_limits<Real>::infinity()};
   comm.min(std::span(links_dt));
-  Real const dt = min(acoustic.dt, links_dt[0]);
-  std::string const limited_by = acoustic.dt <= links_dt[0] ? "fluid.acoustic (" + acoustic.where + ")" : "solid.links";
+  Real dt = min(acoustic.dt, links_dt[0]);
+  std::string limited_by = acoustic.dt <= links_dt[0] ? "fluid.acoustic (" + acoustic.where + ")" : "solid.links";
+  if (scene.fluid && scene.fluid->viscosity) {
+    Real const viscous =
+        fluid::sub_cycled_limit(*scene.fluid->viscosity, initial_viscous_step(*scene.fluid, *grid), dt);
+    if (viscous < dt) dt = viscous, limited_by = "fluid.viscous";
+  }
   Real const steps = scene.end_time / dt;
 
   std::vector<Real> bytes(static_cast<std::size_t>(options.ranks), 30e6);  // the program, MPI and HDF5
@@ -128,6 +147,7 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
       stored *= d == 0 ? n + 16 : d < static_cast<std::size_t>(grid->dimension) ? n + 2 * ghost : 1;
     }
     Real need = 80 * stored;  // five doubles, and a copy for rejected pairs
+    if (scene.fluid->viscosity && scene.fluid->viscosity->time == "strang") need += 32 * plain;
     if (!world->cut_cells_of_block.empty() && world->cut_cells_of_block[static_cast<std::size_t>(b)] > 0)
       need += (40 + 48.0 * grid->dimension) * plain + 4000.0 * world->cut_cells_of_block[static_cast<std::size_t>(b)];
     bytes[static_cast<std::size_t>(partition.owner[static_cast<std::size_t>(b)])] += need;

@@ -127,8 +127,11 @@ void FlowConfig::keys(Keys<FlowConfig>& k) {
   k("gas", &FlowConfig::gas, "", "the gas");
   k("ambient", &FlowConfig::ambient, "", "initial state outside all regions and charges");
   k("euler", &FlowConfig::euler, "", "motion of the gas by the OSMP scheme");
+  k("viscosity", &FlowConfig::viscosity, "", "viscous stress and heat conduction of an ideal gas");
+  k("gravity", &FlowConfig::gravity, "", "a constant acceleration of the gas");
   k("boundary", &FlowConfig::boundary, "", "sides of the grid");
   k("inflow", &FlowConfig::inflow, "", "states of the inflow sides");
+  k("wall", &FlowConfig::wall, "", "viscosity: friction, heat and motion of the reflecting sides");
   k("far_field", &FlowConfig::far_field, "", "states outside the far_field sides");
   k("moving_wall", &FlowConfig::moving_wall, "", "motion of the moving_wall sides");
   k("patch", &FlowConfig::patch, "", "parts of sides with a law of their own; later ones overwrite earlier ones");
@@ -245,6 +248,9 @@ void check(FlowConfig const& config) {
       "fluid.euler.smooth: the terms of smooth flow are those of ideal and stiffened gas, not of the jwl law; set it "
       "to false.");
   check_states(config);
+  check_diffusion(config);
+  require(!config.gravity || config.euler, config.gravity ? config.gravity->at : config.at,
+          "fluid.gravity needs the effect fluid.euler: add euler = {} to [fluid].");
 }
 
 }  // namespace brisance::fluid

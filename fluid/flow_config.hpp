@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "core/base/keys.hpp"
+#include "fluid/diffusion/diffusion_config.hpp"
 #include "fluid/flux/sweep.hpp"
 #include "fluid/grid/grid.hpp"
+#include "fluid/source/gravity_config.hpp"
 
 namespace brisance::fluid {
 
@@ -195,8 +197,11 @@ struct FlowConfig {
   GasConfig gas;
   GasState ambient;
   std::optional<EulerConfig> euler;
+  std::optional<ViscosityConfig> viscosity;
+  std::optional<GravityConfig> gravity;
   BoundaryConfig boundary;
   InflowConfig inflow;
+  WallsConfig wall;
   FarFieldConfig far_field;
   MovingWallConfig moving_wall;
   std::vector<PatchConfig> patch;

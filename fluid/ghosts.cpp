@@ -14,17 +14,29 @@ struct CellRange {
   std::size_t cells() const { return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1] * size[2]); }
 };
 
-CellRange slab_at(Block const& block, int direction, int side, Index first_from_side) {
+GhostRange range_of(Block const& block, int direction, GhostShape const& shape) {
+  std::size_t const d = static_cast<std::size_t>(direction);
+  GhostRange range{shape.depth > 0 ? shape.depth : block.ghost()[d]};
+  if (shape.edges)
+    for (std::size_t e = 0; e < d; ++e) range.margin[e] = range.depth;
+  return range;
+}
+
+CellRange slab_at(Block const& block, int direction, int side, GhostRange const& ghosts, Index first_from_side) {
   std::size_t const d = static_cast<std::size_t>(direction);
   CellRange range{{0, 0, 0}, block.size()};
-  range.size[d] = block.ghost()[d];
+  for (std::size_t e = 0; e < 3; ++e) range.first[e] -= ghosts.margin[e], range.size[e] += 2 * ghosts.margin[e];
+  range.size[d] = ghosts.depth;
   range.first[d] = side == 0 ? first_from_side : block.size()[d] - first_from_side - range.size[d];
   return range;
 }
-CellRange ghost_slab(Block const& block, int d, int side) {
-  return slab_at(block, d, side, -block.ghost()[static_cast<std::size_t>(d)]);
+CellRange ghost_slab(Block const& block, int d, int side, GhostShape const& shape) {
+  GhostRange const range = range_of(block, d, shape);
+  return slab_at(block, d, side, range, -range.depth);
 }
-CellRange inner_slab(Block const& block, int d, int side) { return slab_at(block, d, side, 0); }
+CellRange inner_slab(Block const& block, int d, int side, GhostShape const& shape) {
+  return slab_at(block, d, side, range_of(block, d, shape), 0);
+}
 
 template <class Visit>
 void for_rows(CellRange const& range, Visit&& visit) {
@@ -102,8 +114,13 @@ Real const* unpack(Block& block, CellRange const& range, Real const* in) {
 }  // namespace
 
 Ghosts::Ghosts(Grid const& grid, std::vector<int> const& owner, std::vector<Block>& blocks,
-               Boundaries const& boundaries, parallel::Comm& comm)
-    : blocks_(blocks), boundaries_(boundaries), comm_(comm), ends_(blocks.size()) {
+               Boundaries const& boundaries, parallel::Comm& comm, GhostShape shape, FillSide fill_side)
+    : blocks_(blocks),
+      boundaries_(boundaries),
+      comm_(comm),
+      shape_(shape),
+      fill_side_(std::move(fill_side)),
+      ends_(blocks.size()) {
   for (int d = 0; d < grid.dimension; ++d) {
     build(grid, owner, d);
     Grid pencil;
@@ -151,7 +168,7 @@ void Ghosts::build(Grid const& grid, std::vector<int> const& owner, int directio
   for (std::size_t p = 0; p < blocks_.size(); ++p) (waits[p] ? exchange.waiting : exchange.ready).push_back(p);
   auto const doubles = [&](std::vector<Slab> const& slabs) {
     std::size_t n = 0;
-    for (Slab const& s : slabs) n += 1 + 5 * ghost_slab(blocks_[s.block], direction, s.side).cells();
+    for (Slab const& s : slabs) n += 1 + 5 * ghost_slab(blocks_[s.block], direction, s.side, shape_).cells();
     return n;
   };
   for (Partner& p : exchange.partners) {
@@ -166,14 +183,14 @@ void Ghosts::set_end(Slab const& slab, int direction, State const& state) {
   if (sleepy(slab.block))
     ends_[slab.block][static_cast<std::size_t>(slab.side)] = {true, false, state};
   else
-    fill(blocks_[slab.block], ghost_slab(blocks_[slab.block], direction, slab.side), state);
+    fill(blocks_[slab.block], ghost_slab(blocks_[slab.block], direction, slab.side, shape_), state);
 }
 
 /// The ghosts of `slab` are filled: does it matter to a uniform block that they hold one state?
 void Ghosts::look_at_end(Slab const& slab, int direction) {
   if (!sleepy(slab.block)) return;
   Block const& block = blocks_[slab.block];
-  CellRange const ghosts = ghost_slab(block, direction, slab.side);
+  CellRange const ghosts = ghost_slab(block, direction, slab.side, shape_);
   State const first = block.load(ghosts.first[0], ghosts.first[1], ghosts.first[2]);
   ends_[slab.block][static_cast<std::size_t>(slab.side)] = {holds_only(block, ghosts, first), true, first};
 }
@@ -189,7 +206,7 @@ bool Ghosts::find_end(Slab const& slab, int direction, Real time) {
     Block& pencil = pencils_[static_cast<std::size_t>(direction)];
     pencil.fill(inside);
     boundaries_.fill(pencil, direction, slab.side, time);
-    CellRange const ghosts = ghost_slab(pencil, direction, slab.side);
+    CellRange const ghosts = ghost_slab(pencil, direction, slab.side, shape_);
     State const first = pencil.load(ghosts.first[0], ghosts.first[1], ghosts.first[2]);
     bool const one_state = holds_only(pencil, ghosts, first);
     tried_.push_back({slab.side, inside, one_state ? std::optional(first) : std::nullopt});
@@ -204,7 +221,7 @@ void Ghosts::complete(std::size_t block, int direction) {
   if (!sleepy(block)) return;
   for (int side = 0; side < 2; ++side) {
     End& end = ends_[block][static_cast<std::size_t>(side)];
-    if (!end.filled) fill(blocks_[block], ghost_slab(blocks_[block], direction, side), end.state);
+    if (!end.filled) fill(blocks_[block], ghost_slab(blocks_[block], direction, side, shape_), end.state);
     end.filled = true;
   }
 }
@@ -218,7 +235,7 @@ void Ghosts::start(int direction, Real time, UniformBlocks const* uniform) {
     for (Slab const& s : p.sends) {
       *out++ = sleepy(s.block) ? 1 : 0;
       out = sleepy(s.block) ? std::ranges::copy(*uniform_->state(s.block), out).out
-                            : pack(blocks_[s.block], inner_slab(blocks_[s.block], direction, s.side), out);
+                            : pack(blocks_[s.block], inner_slab(blocks_[s.block], direction, s.side, shape_), out);
     }
     std::span<Real const> const message(p.out.data(), out);
     // Whole where the transport cuts messages into pieces, whose number both ends must agree on.
@@ -232,13 +249,17 @@ void Ghosts::start(int direction, Real time, UniformBlocks const* uniform) {
       set_end({c.to, c.side}, direction, *uniform_->state(c.from));
       continue;
     }
-    copy(from, inner_slab(from, direction, 1 - c.side), blocks_[c.to], ghost_slab(blocks_[c.to], direction, c.side));
+    copy(from, inner_slab(from, direction, 1 - c.side, shape_), blocks_[c.to],
+         ghost_slab(blocks_[c.to], direction, c.side, shape_));
     look_at_end({c.to, c.side}, direction);
   }
   tried_.clear();
   for (Slab const& s : exchange.domain) {
     if (find_end(s, direction, time)) continue;
-    boundaries_.fill(blocks_[s.block], direction, s.side, time);
+    if (fill_side_)
+      fill_side_(blocks_[s.block], direction, s.side, time, range_of(blocks_[s.block], direction, shape_));
+    else
+      boundaries_.fill(blocks_[s.block], direction, s.side, time, range_of(blocks_[s.block], direction, shape_));
     look_at_end(s, direction);
   }
 }
@@ -257,7 +278,7 @@ void Ghosts::finish(int direction) {
         in += 5;
         set_end(s, direction, state);
       } else {
-        in = unpack(blocks_[s.block], ghost_slab(blocks_[s.block], direction, s.side), in);
+        in = unpack(blocks_[s.block], ghost_slab(blocks_[s.block], direction, s.side, shape_), in);
         look_at_end(s, direction);
       }
     }

@@ -1,6 +1,7 @@
 // Ghost cells of one direction: copies between face neighbours, messages, and the sides of the domain.
 #pragma once
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -12,13 +13,25 @@
 
 namespace brisance::fluid {
 
-/// The exchange pattern of a set of blocks, computed once. Sweeps read no diagonal ghosts, so slabs span only the cells
-/// of a block across the direction.
+/// Which ghosts are filled.
+struct GhostShape {
+  Index depth = 0;  ///< layers; 0: all that the blocks have
+  /// Also the edges of a block (corners in 2D): the slabs of a direction then span the ghosts of the directions before
+  /// it, so directions must be exchanged in ascending order.
+  bool edges = false;
+};
+
+/// The exchange pattern of a set of blocks, computed once. Sweeps read no diagonal ghosts, so by default slabs span
+/// only the cells of a block across the direction.
 class Ghosts {
  public:
-  /// `blocks`: owned blocks in ascending order of id; they must outlive this and not move.
+  /// Fills the ghosts of a block at a side of the domain.
+  using FillSide = std::function<void(Block&, int direction, int side, Real time, GhostRange const&)>;
+
+  /// `blocks`: owned blocks in ascending order of id; they must outlive this and not move. `fill_side`: takes the place
+  /// of the laws of `boundaries`; not with sleeping blocks.
   Ghosts(Grid const& grid, std::vector<int> const& owner, std::vector<Block>& blocks, Boundaries const& boundaries,
-         parallel::Comm& comm);
+         parallel::Comm& comm, GhostShape shape = {}, FillSide fill_side = nullptr);
 
   /// Sends what other ranks need and fills the ghosts that depend on this rank alone. Afterwards the cells of `ready`
   /// blocks may be changed: nothing reads them any more. `time`: of the laws of the sides, s.
@@ -82,6 +95,8 @@ class Ghosts {
   std::vector<Block>& blocks_;
   Boundaries const& boundaries_;
   parallel::Comm& comm_;
+  GhostShape shape_;
+  FillSide fill_side_;
   std::array<Exchange, 3> exchanges_;
   std::unique_ptr<parallel::Comm::Pending> pending_;
   std::vector<std::array<End, 2>> ends_;

@@ -48,3 +48,9 @@ brisance_test(fluid_several_dimensions
   SOURCES verification/fluid/several_dimensions_test.cpp ${hard_cases}
   LINKS brisance::fluid
   LABELS verification)
+brisance_test(fluid_viscous
+  SOURCES verification/fluid/viscous_waves_test.cpp verification/fluid/viscous_walls_test.cpp
+          verification/fluid/viscous_shock_test.cpp
+  LINKS brisance::fluid
+  LABELS verification)
+brisance_test(fluid_viscosity_unit SOURCES unit/fluid/viscosity_test.cpp LINKS brisance::fluid RANKS 1 3 LABELS unit)

@@ -17,6 +17,8 @@ brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/r
 brisance_same_digest(blast-in-a-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/blast-in-a-box.toml 24)
 brisance_same_digest(sides ${PROJECT_SOURCE_DIR}/tests/support/scenes/sides.toml 60)
 brisance_same_digest(double-mach ${PROJECT_SOURCE_DIR}/tests/support/scenes/double-mach.toml 40)
+brisance_same_digest(viscous-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-box.toml 40)
+brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-bodies.toml 60)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
 
 # brisance_same_gauges(name SCENE steps [options of run])

@@ -12,12 +12,18 @@ void Plan::at(Stage stage, std::function<void(Clock const&)> run) {
 
 char const* name(Stage stage) {
   switch (stage) {
+    case Stage::source:
+      return "source";
     case Stage::predict:
       return "predict";
     case Stage::boundary:
       return "boundary";
+    case Stage::diffuse:
+      return "diffuse";
     case Stage::sweeps:
       return "sweeps";
+    case Stage::diffuse_again:
+      return "diffuse_again";
     case Stage::cut_cells:
       return "cut_cells";
     case Stage::load_solid:
@@ -32,6 +38,8 @@ char const* name(Stage stage) {
       return "mix";
     case Stage::fill:
       return "fill";
+    case Stage::source_again:
+      return "source_again";
     case Stage::forces:
       return "forces";
     case Stage::kick_again:

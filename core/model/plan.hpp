@@ -27,6 +27,9 @@ class Plan {
   struct Limit {
     std::string name;
     std::function<Real(Clock const&)> seconds;  ///< local; the minimum over ranks counts
+    /// Of an effect that can sub-cycle: its limit and the smallest of the others, both over all ranks, -> the step it
+    /// really asks for. Null: the limit itself.
+    std::function<Real(Real own, Real others)> relax;
   };
   /// What an effect keeps of physics. `write` and `read` are collective; `save` and `restore` serve rejected pairs.
   struct Keep {
@@ -45,8 +48,9 @@ class Plan {
   /// rank.
   void effect(std::string name, std::function<std::size_t()> bytes);
   void at(Stage stage, std::function<void(Clock const&)> run);
-  void limit(std::string name, std::function<Real(Clock const&)> seconds) {
-    limits_.push_back({std::move(name), std::move(seconds)});
+  void limit(std::string name, std::function<Real(Clock const&)> seconds,
+             std::function<Real(Real own, Real others)> relax = nullptr) {
+    limits_.push_back({std::move(name), std::move(seconds), std::move(relax)});
   }
   void health(std::function<Verdict(Clock const&)> judge) { health_.push_back(std::move(judge)); }
   void keep(Keep k) { kept_.push_back(std::move(k)); }

@@ -9,9 +9,12 @@ namespace brisance {
 
 // The `lag` coupling (theory/coupling.md section 5). Stages without tasks are empty loops.
 void Simulation::step() {
+  run(Stage::source);
   run(Stage::predict);
   run(Stage::boundary);
+  run(Stage::diffuse);
   run(Stage::sweeps);
+  run(Stage::diffuse_again);
   run(Stage::cut_cells);
   run(Stage::load_solid);
   run(Stage::kick);
@@ -19,6 +22,7 @@ void Simulation::step() {
   run(Stage::flow_update);
   run(Stage::mix);
   run(Stage::fill);
+  run(Stage::source_again);
   run(Stage::forces);
   run(Stage::kick_again);
   clock_.time += clock_.dt;
@@ -38,6 +42,12 @@ Real Simulation::choose_step(std::string& limited_by, bool& at_output) {
   std::vector<Real> seconds;
   for (Plan::Limit const& limit : plan_.limits()) seconds.push_back(limit.seconds(clock_));
   comm_.min(std::span(seconds));
+  // Limits that can be met by sub-cycling are told what the others ask for.
+  Real others = std::numeric_limits<Real>::max();
+  for (std::size_t i = 0; i < seconds.size(); ++i)
+    if (!plan_.limits()[i].relax) others = min(others, seconds[i]);
+  for (std::size_t i = 0; i < seconds.size(); ++i)
+    if (plan_.limits()[i].relax) seconds[i] = plan_.limits()[i].relax(seconds[i], others);
   Real dt = std::numeric_limits<Real>::max();
   for (std::size_t i = 0; i < seconds.size(); ++i)
     if (seconds[i] < dt) dt = seconds[i], limited_by = plan_.limits()[i].name;

@@ -14,6 +14,10 @@ namespace {
 void add(State& to, Real factor, State const& u) {
   for (std::size_t q = 0; q < 5; ++q) to[q] += factor * u[q];
 }
+/// Stress and energy flux over a step, as they are subtracted from the flux along the axis.
+void add_viscous(State& to, Real factor, std::array<Real, 4> const& stress) {
+  for (std::size_t q = 0; q < 4; ++q) to[1 + q] += factor * stress[q];
+}
 }  // namespace
 
 void CutCells::transfers() {
@@ -109,8 +113,10 @@ void CutCells::update_contents(Real dt) {
         CellIndex face = l;
         face[dir] += side;
         Real const aperture = next_.aperture(cell, d, side);
-        if (aperture != 0)
-          add(c.amount, (side == 0 ? dt : -dt) * aperture, wall.flux[dir][wall.face(d, face[0], face[1], face[2])]);
+        if (aperture == 0) continue;
+        std::size_t const at = wall.face(d, face[0], face[1], face[2]);
+        add(c.amount, (side == 0 ? dt : -dt) * aperture, wall.flux[dir][at]);
+        if (viscous_) add_viscous(c.amount, (side == 0 ? -1 : 1) * aperture, wall.viscous[dir][at]);
       }
     }
     Index const cut_index = next_.cut_index(cell);
@@ -123,8 +129,14 @@ void CutCells::update_contents(Real dt) {
       Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
       Real const chi = piece_factor_[static_cast<std::size_t>(f)];
       // The same numbers as the force on the solid, with the opposite sign.
-      Vec3 const force{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y,
-                       -chi * pressure.z * piece.area.z};
+      Vec3 force{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y, -chi * pressure.z * piece.area.z};
+      if (viscous_) {
+        PieceFriction const& friction = (*viscous_)[static_cast<std::size_t>(f)];
+        force += friction.force;
+        c.amount[4] -= dt * friction.heat;
+        wall_heat_.add(dt * friction.heat);
+        exchanged_energy_.add(dt * std::abs(friction.heat));
+      }
       Vec3 const velocity = next_.wall_velocity(piece.triangle, piece.bary_centroid);
       Real const work = dot(force, velocity);
       for (int d = 0; d < 3; ++d) c.amount[static_cast<std::size_t>(d) + 1] -= dt * force[d];
@@ -160,6 +172,8 @@ void CutCells::boundary_account(Real dt) {
             if (area == 0) continue;
             State const& f = wall.flux[dir][wall.face(d, face[0], face[1], face[2])];
             add(sum, (side == 0 ? dt : -dt) * area, f);
+            if (viscous_)
+              add_viscous(sum, (side == 0 ? -1 : 1) * area, wall.viscous[dir][wall.face(d, face[0], face[1], face[2])]);
             impulse += dt * area * std::abs(f[1 + dir]);
           }
         for (std::size_t q = 0; q < 5; ++q) crossed_[q].add(sum[q]);

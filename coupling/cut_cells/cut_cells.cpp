@@ -75,6 +75,11 @@ void CutCells::rebuild_record() {
   same_ = false;
 }
 
+fluid::ViscousWalls& CutCells::add_viscosity(fluid::Transport const& transport) {
+  viscous_ = std::make_unique<ViscousWall>(config_.wall.value_or(BodyWallConfig{}), transport, flow_, sweeper_, comm_);
+  return *viscous_;
+}
+
 void CutCells::join(Plan& plan) {
   plan.effect("coupling.cut_cells", [this] { return record_.bytes() + next_.bytes() + sweeper_.bytes(); });
   plan.at(Stage::predict, [this](Clock const& c) { predict(c.dt); });
@@ -107,7 +112,7 @@ void CutCells::join(Plan& plan) {
     surface_.send_triangles(record_.triangles);
     rebuild_record();
     for (auto& sum : crossed_) sum = {};
-    wall_work_ = pressure_impulse_ = exchanged_energy_ = {};
+    wall_work_ = pressure_impulse_ = exchanged_energy_ = wall_heat_ = {};
     health_ = {};
   };
   keep.write = [this](parallel::ArchiveWriter& file) {
@@ -144,7 +149,9 @@ void CutCells::predict(Real dt) {
 }
 
 void CutCells::new_geometry() {
+  if (sources_) sweeper_.keep(record_);
   sweeper_.begin_step();
+  if (viscous_) viscous_->begin_step();
   // Judged by the owners of the vertices: a triangle that runs away may reach nobody.
   Vec3 const bound = 0.5 * flow_.grid().spacing;
   std::optional<Vec3> const lost = surface_.beyond(bound);
@@ -184,6 +191,7 @@ bool CutCells::build_next() {
 
 void CutCells::load_solid() {
   std::vector<CellForce> forces;
+  if (viscous_) viscous_->find(record_, next_, moved_);
   wall_pressure(next_, false, forces);
   surface_.apply(forces);
   solid_.restore(solid_before_);
@@ -331,11 +339,14 @@ void CutCells::account(Ledger& ledger) {
     ledger.add(static_cast<Entry>(static_cast<std::size_t>(Entry::in_momentum_x) + d), crossed_[1 + d]);
   ledger.add(Entry::in_energy, crossed_[4]);
   ledger.add(Entry::fluid_in_energy, crossed_[4]);
+  Real const lost_heat = -wall_heat_.value();
+  ledger.add(Entry::in_energy, lost_heat);
+  ledger.add(Entry::fluid_in_energy, lost_heat);
   ledger.add(Entry::wall_work, wall_work_);
   ledger.add(Entry::pressure_impulse, pressure_impulse_);
   ledger.add(Entry::exchanged_energy, exchanged_energy_);
   for (auto& sum : crossed_) sum = {};
-  wall_work_ = pressure_impulse_ = exchanged_energy_ = {};
+  wall_work_ = pressure_impulse_ = exchanged_energy_ = wall_heat_ = {};
 }
 
 void CutCells::digest(parallel::Digest& digest) const {

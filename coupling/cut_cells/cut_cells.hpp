@@ -1,10 +1,12 @@
 // The effect coupling.cut_cells: the conservative exchange between the flow and the moving solid, time coupling `lag`.
 // A file per verb: runs and wall_sweeper (sweeps), wall_load (pressure on the solid), balance (contents), mixing.
 #pragma once
+#include <memory>
 #include <optional>
 
 #include "core/model/plan.hpp"
 #include "coupling/coupling_config.hpp"
+#include "coupling/cut_cells/viscous_wall.hpp"
 #include "coupling/cut_cells/wall_surface.hpp"
 #include "coupling/cut_cells/wall_sweeper.hpp"
 #include "coupling/geometry/swept.hpp"
@@ -23,6 +25,12 @@ class CutCells : public Effect {
   void cut_initial_geometry();
   /// Collective. Merges the small cells of the initial fields, sets mirror states and the load of the initial state.
   void start();
+
+  /// Friction and heat at the walls, for a flow with viscosity. To be called once, before join; the result belongs to
+  /// this and must be given to the viscous terms.
+  fluid::ViscousWalls& add_viscosity(fluid::Transport const& transport);
+  /// Sources change the flow at the ends of a step: mirror states are then made anew at its start.
+  void expect_sources() { sources_ = true; }
 
   /// Fluid volume of a cell at the present time, m3; 0 in solid cells.
   Real fluid_volume(CellIndex c) const { return record_.solid(c) ? 0 : record_.volume(c); }
@@ -75,6 +83,8 @@ class CutCells : public Effect {
   std::vector<Content> kept_, kept_saved_;  ///< contents of covered cells, by id
   std::vector<Content> contents_;           ///< of the cells the balance rewrites, by id
   std::vector<Real> piece_factor_;          ///< chi of each piece of next_
+  std::unique_ptr<ViscousWall> viscous_;    ///< null: the gas has no viscosity
+  bool sources_ = false;
   std::vector<Swept> swept_;
   struct Transfer {
     GlobalId to, from;
@@ -88,7 +98,7 @@ class CutCells : public Effect {
 
   // increments for the ledger since the last audit
   std::array<parallel::ExactSum, 5> crossed_;
-  parallel::ExactSum wall_work_, pressure_impulse_, exchanged_energy_;
+  parallel::ExactSum wall_work_, pressure_impulse_, exchanged_energy_, wall_heat_;
   std::int64_t cut_cells_done_ = 0;
 };
 

@@ -32,7 +32,7 @@ MirrorCell WallSweeper::mirror(CellIndex c, int direction, int side, std::vector
   GlobalId const id = grid.cell_id(chosen);
   wanted.push_back(id);
   // The place in `wanted` for now; becomes the slot once the list is sorted.
-  return {static_cast<Index>(wanted.size()) - 1, p.normal, dot(p.velocity, p.normal)};
+  return {static_cast<Index>(wanted.size()) - 1, p.normal, dot(p.velocity, p.normal), p.velocity};
 }
 
 void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction, std::vector<GlobalId>& wanted) {
@@ -148,11 +148,15 @@ void WallSweeper::keep(WallRecord const& record) {
 }
 
 void WallSweeper::refresh_mirrors() {
+  set_mirrors([](fluid::State const& u, MirrorCell const& m) { return reflect(u, m); });
+}
+
+void WallSweeper::set_mirrors(std::function<fluid::State(fluid::State const&, MirrorCell const&)> const& mirrored) {
   images_.refresh(comm_, [](Block const& b, Index i, Index j, Index k) { return b.load(i, j, k); });
   for (auto& [id, wall] : blocks_) {
     Block& block = *flow_.find(id);
     for (auto const& [c, m] : wall.solid)
-      block.store(c[0], c[1], c[2], m.slot >= 0 ? reflect(images_[m.slot], m) : ambient);
+      block.store(c[0], c[1], c[2], m.slot >= 0 ? mirrored(images_[m.slot], m) : ambient);
   }
 }
 

@@ -250,8 +250,9 @@ std::size_t WallSweeper::bytes() const {
   for (auto const& [id, wall] : blocks_) {
     total += wall.before.capacity() * sizeof(State);
     for (std::size_t d = 0; d < 3; ++d)
-      total += wall.flux[d].capacity() * sizeof(State) + wall.pressure[d].capacity() * sizeof(Real) +
-               wall.runs[d].capacity() * sizeof(WallBlock::Run) + wall.ends[d].capacity() * sizeof(WallBlock::RunEnd);
+      total += wall.flux[d].capacity() * sizeof(State) + wall.viscous[d].capacity() * 4 * sizeof(Real) +
+               wall.pressure[d].capacity() * sizeof(Real) + wall.runs[d].capacity() * sizeof(WallBlock::Run) +
+               wall.ends[d].capacity() * sizeof(WallBlock::RunEnd);
   }
   return total;
 }

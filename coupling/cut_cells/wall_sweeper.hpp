@@ -16,6 +16,7 @@ struct MirrorCell {
   Index slot = -1;      ///< image cell in the gather, -1: none
   Vec3 normal;          ///< unit
   Real wall_speed = 0;  ///< normal velocity of the wall, m/s
+  Vec3 wall_velocity;   ///< m/s
 };
 /// State of the image with its velocity reflected at the moving wall.
 fluid::State reflect(fluid::State u, MirrorCell const& mirror);
@@ -27,6 +28,8 @@ struct WallBlock {
   std::vector<fluid::State> before;               ///< [cell]: U^n, mirror states in solid cells
   std::array<std::vector<fluid::State>, 3> flux;  ///< [face], real coordinates
   std::array<std::vector<Real>, 3> pressure;      ///< [cell], Pa
+  /// [face]: viscous stress on momentum and energy flux over the step, times time; empty without viscosity.
+  std::array<std::vector<std::array<Real, 4>>, 3> viscous;
   std::size_t cell(Index i, Index j, Index k) const {
     return static_cast<std::size_t>(i + size[0] * (j + size[1] * k));
   }
@@ -58,6 +61,8 @@ class WallSweeper : public fluid::BlockSweeper {
   void rebuild(WallRecord const& record);
   /// Collective. The record moved elsewhere in memory but is the same: mirror states of the present fields.
   void keep(WallRecord const& record);
+  /// Collective. Puts a mirrored state into every solid cell near the walls; `mirrored`: image -> state.
+  void set_mirrors(std::function<fluid::State(fluid::State const&, MirrorCell const&)> const& mirrored);
   /// Keeps U^n of the wall blocks.
   void begin_step();
 

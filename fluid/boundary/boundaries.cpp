@@ -39,10 +39,14 @@ template <class Where>
 Boundaries::Law Boundaries::make(LawOfSide const& given, FlowConfig const& config, Gas const& gas, Grid const& grid,
                                  Where const& where) {
   auto const constant = [&where](auto const& law) {
-    return [law, where](Block& block, int d, int s, Real) { fill_ghosts(law, block, d, s, where); };
+    return [law, where](Block& block, int d, int s, Real, GhostRange const& range) {
+      fill_ghosts(law, block, d, s, range, where);
+    };
   };
   auto const changing = [&where](auto const& law) {
-    return [law, where](Block& block, int d, int s, Real time) { fill_ghosts(law.at(time), block, d, s, where); };
+    return [law, where](Block& block, int d, int s, Real time, GhostRange const& range) {
+      fill_ghosts(law.at(time), block, d, s, range, where);
+    };
   };
   if (given.name == Reflecting::name) return {given.name, constant(Reflecting{}), {}};
   if (given.name == Outflow::name) return {given.name, constant(Outflow{}), {}};
@@ -84,13 +88,20 @@ Boundaries::Boundaries(FlowConfig const& config, Gas const& gas, Grid const& gri
     int const direction = side_index(patch.side) / 2, side = side_index(patch.side) % 2;
     auto const where = [patch, direction, &grid](CellIndex const& c) { return covers(patch, grid, direction, c); };
     at(direction, side).patches.push_back(make(law_of(patch), config, gas, grid, where));
+    at(direction, side).patched.push_back(where);
   }
 }
 
-void Boundaries::fill(Block& block, int direction, int side, Real time) const {
+void Boundaries::fill(Block& block, int direction, int side, Real time, GhostRange const& range) const {
   Side const& here = at(direction, side);
-  here.whole.fill(block, direction, side, time);
-  for (Law const& patch : here.patches) patch.fill(block, direction, side, time);
+  here.whole.fill(block, direction, side, time, range);
+  for (Law const& patch : here.patches) patch.fill(block, direction, side, time, range);
+}
+
+bool Boundaries::patched(int direction, int side, CellIndex const& c) const {
+  for (auto const& patch : at(direction, side).patched)
+    if (patch(c)) return true;
+  return false;
 }
 
 Real Boundaries::signal_speed(int direction, Real from, Real to) const {

@@ -1,0 +1,58 @@
+// Friction and heat at the moving walls: mirror states of the viscous terms, their face fluxes for the balance of the
+// cut cells, and what every piece of the wall receives (theory/fluid.md 5.3).
+#pragma once
+#include <vector>
+
+#include "coupling/coupling_config.hpp"
+#include "coupling/cut_cells/state_gather.hpp"
+#include "coupling/cut_cells/wall_record.hpp"
+#include "coupling/cut_cells/wall_sweeper.hpp"
+#include "fluid/diffusion/viscosity.hpp"
+
+namespace brisance::coupling {
+
+/// What the gas does to a piece of the wall beyond its pressure.
+struct PieceFriction {
+  Vec3 force;     ///< on the solid, N
+  Real heat = 0;  ///< into the solid, W
+};
+
+class ViscousWall : public fluid::ViscousWalls {
+ public:
+  ViscousWall(BodyWallConfig const& config, fluid::Transport const& transport, fluid::Flow& flow, WallSweeper& sweeper,
+              parallel::Comm& comm)
+      : config_(config), transport_(transport), flow_(flow), sweeper_(sweeper), comm_(comm) {}
+
+  bool handles(Index block) const override { return sweeper_.handles(block); }
+  void prepare() override;
+  fluid::FaceSink& sink(Index block, Real weight) override;
+
+  /// Forgets the fluxes of the last step.
+  void begin_step();
+  /// Collective. Friction and heat of the pieces of `next` in owned cells, from full cells around them, which are
+  /// final; `now`: the record at the start of the step; `moved`: is the geometry another than at the last call?
+  void find(WallRecord const& now, WallRecord const& next, bool moved);
+  /// Of a piece of `next`, once found.
+  PieceFriction const& operator[](std::size_t piece) const { return found_[piece]; }
+
+ private:
+  struct Sink : fluid::FaceSink {
+    WallBlock* wall = nullptr;
+    Real weight = 0;
+    void add(int direction, Index j, Index k, Index faces, Real const* stress, std::ptrdiff_t pitch) override;
+  };
+  PieceFriction friction(WallRecord const& now, WallRecord const& next, CutCell const& cut, Piece const& piece) const;
+  fluid::State state(CellIndex c) const;
+
+  BodyWallConfig config_;
+  fluid::Transport transport_;
+  fluid::Flow& flow_;
+  WallSweeper& sweeper_;
+  parallel::Comm& comm_;
+  Sink sink_;
+  StateGather around_;  // cells of other ranks in the neighbourhoods of owned cut cells
+  bool planned_ = false;
+  std::vector<PieceFriction> found_;
+};
+
+}  // namespace brisance::coupling

@@ -1,0 +1,34 @@
+// The effect fluid.gravity: a constant acceleration of the gas.
+#pragma once
+#include "core/model/plan.hpp"
+#include "fluid/flow.hpp"
+#include "fluid/fluid_volume.hpp"
+#include "fluid/source/gravity_config.hpp"
+
+namespace brisance::fluid {
+
+/// Half a step before and half a step after the others, with the exact work of a constant acceleration g over tau:
+/// rho u += tau rho g, E += tau rho u . g + tau^2 rho g^2 / 2.  Source: theory/fluid.md 3, "Sources".
+class Gravity : public Effect {
+ public:
+  /// `flow` must outlive this.
+  Gravity(GravityConfig const& config, Flow& flow) : g_(config.acceleration), flow_(flow) {}
+  void join(Plan& plan) override;
+
+  /// Fluid volume of a cell where walls cut cells.
+  void set_fluid_volume(FluidVolume volume) { volume_ = std::move(volume); }
+
+  /// Local. Acts on all cells for `tau` s and enters what it gave in the account.
+  void advance(Real tau);
+
+ private:
+  void account(Ledger& ledger);
+
+  Vec3 g_;  // m/s2
+  Flow& flow_;
+  FluidVolume volume_;
+  parallel::ExactSum mass_time_;  ///< sum of mass * tau since the last account: kg s
+  parallel::ExactSum work_, work_size_;
+};
+
+}  // namespace brisance::fluid
