@@ -18,8 +18,8 @@ struct PairReport {
 PairReport sweep_pair(Flow& flow, FlowClock const& clock, Real dt) {
   Grid const& grid = flow.grid();
   PairReport pair;
+  flow.begin_pair();
   for (int s = 0; s < steps_per_pair(grid.dimension); ++s) {
-    flow.begin_step();
     for (int const d : directions(grid.dimension, clock.step + s)) {
       SweepReport const report = flow.sweep(d, dt, clock.time + (s + 0.5) * dt);
       pair.health |= report.health;

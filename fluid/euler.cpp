@@ -9,7 +9,7 @@ void Euler::join(Plan& plan) {
   for (int sweep = 0; sweep < flow_.grid().dimension; ++sweep)
     plan.at(Stage::sweeps, [this, sweep](Clock const& clock) {
       int const direction = directions(flow_.grid().dimension, clock.step)[static_cast<std::size_t>(sweep)];
-      if (sweep == 0) flow_.begin_step();
+      if (sweep == 0 && clock.step % steps_per_pair(flow_.grid().dimension) == 0) flow_.begin_pair();
       SweepReport const report = flow_.sweep(direction, clock.dt, clock.time + 0.5 * clock.dt);
       fallback_faces_ += report.fallback_faces;
       if (report.health != 0 && report_.health == 0) report_.where = report.where;

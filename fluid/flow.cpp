@@ -82,7 +82,7 @@ void Flow::look_at_blocks() {
   }
 }
 
-void Flow::begin_step() {
+void Flow::begin_pair() {
   if (!sensor_) return;
   look_at_blocks();
   sensor_->update(

@@ -63,10 +63,11 @@ class Flow {
   /// Null: all blocks are swept by the plain kernel. Not owned.
   void set_sweeper(BlockSweeper* sweeper) { sweeper_ = sweeper; }
 
-  /// Collective. What the sweeps of a step need of the state at its start: the marks of the shock sensor. Nothing to do
-  /// in 1D or without the cure.
-  void begin_step();
-  /// Marks of this step in an owned block; null: none.
+  /// Collective. What the sweeps of a pair of steps need of the state at its start: the marks of the shock sensor,
+  /// which reach two cells from a jump, further than a shock runs in the first step. Nothing to do in 1D or without the
+  /// cure.
+  void begin_pair();
+  /// Marks of this pair in an owned block; null: none.
   CellLayer<std::uint8_t> const* marks(Block const& block) const {
     return sensor_ ? sensor_->marks(static_cast<std::size_t>(&block - blocks_.data())) : nullptr;
   }

@@ -94,17 +94,23 @@ class LayerExchange {
     received_.assign(layers.size(), 0);
     for (Partner& p : partners_) {
       T* out = p.out.data();
-      for (Face const& f : p.sends) for_cells(layers[f.block], f, 0, [&](T& x) { *out++ = x; });
+      for (Face const& f : p.sends)
+        for_rows(layers[f.block], planes(layers[f.block], f, 0),
+                 [&](T* row, Index n) { out = std::copy_n(row, n, out); });
     }
     std::unique_ptr<parallel::Comm::Pending> pending;
     if (!partners_.empty()) pending = comm_.start(sends_, receives_, tag_);
     for (auto const& [to, from] : copies_) {
       if (!fresh(from)) continue;
       received_[to.block] = 1;
-      buffer_.clear();
-      for_cells(layers[from], {from, to.direction, 1 - to.side}, 0, [&](T& x) { buffer_.push_back(x); });
-      T const* in = buffer_.data();
-      for_cells(layers[to.block], to, -width_, [&](T& x) { x = *in++; });
+      CellLayer<T>& source = layers[from];
+      CellLayer<T>& target = layers[to.block];
+      CellIndex const first = planes(source, {from, to.direction, 1 - to.side}, 0).begin;
+      Planes const ghosts = planes(target, to, -width_);
+      for_rows(target, ghosts, [&, j = Index{0}, k = Index{0}](T* row, Index n) mutable {
+        std::copy_n(source.at(first[0], first[1] + j, first[2] + k), n, row);
+        if (++j == ghosts.end[1] - ghosts.begin[1]) j = 0, ++k;
+      });
     }
     for (Face const& f : domain_)
       if (fresh(f.block)) at_domain(layers[f.block], f.direction, f.side);
@@ -112,14 +118,17 @@ class LayerExchange {
     for (Partner& p : partners_) {
       T const* in = p.in.data();
       for (Face const& f : p.receives) {
-        for_cells(layers[f.block], f, -width_, [&](T& x) { x = *in++; });
+        for_rows(layers[f.block], planes(layers[f.block], f, -width_), [&](T* row, Index n) {
+          std::copy_n(in, n, row);
+          in += n;
+        });
         received_[f.block] = 1;
       }
     }
   }
   bool received(std::size_t position) const { return received_[position]; }
   std::size_t bytes() const {
-    std::size_t n = buffer_.capacity();
+    std::size_t n = 0;
     for (Partner const& p : partners_) n += p.in.size() + p.out.size();
     return n * sizeof(T);
   }
@@ -144,16 +153,21 @@ class LayerExchange {
     return static_cast<std::size_t>(width_) * static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
            static_cast<std::size_t>(nz) / static_cast<std::size_t>(block.size()[static_cast<std::size_t>(f.direction)]);
   }
-  /// Visits the `width` planes of cells at a face, those inside (`from` 0) or the ghosts (-width), x fastest.
-  template <class Visit>
-  void for_cells(CellLayer<T>& layer, Face const& f, Index from, Visit visit) const {
+  struct Planes {
+    CellIndex begin, end;
+  };
+  /// The `width` planes of cells at a face: those inside (`from` 0) or the ghosts (-width).
+  Planes planes(CellLayer<T> const& layer, Face const& f, Index from) const {
     auto const d = static_cast<std::size_t>(f.direction);
-    CellIndex begin{0, 0, 0}, end = layer.size();
-    begin[d] = f.side == 0 ? from : layer.size()[d] - from - width_;
-    end[d] = begin[d] + width_;
-    for (Index k = begin[2]; k < end[2]; ++k)
-      for (Index j = begin[1]; j < end[1]; ++j)
-        for (Index i = begin[0]; i < end[0]; ++i) visit(*layer.at(i, j, k));
+    Planes p{{0, 0, 0}, layer.size()};
+    p.begin[d] = f.side == 0 ? from : layer.size()[d] - from - width_;
+    p.end[d] = p.begin[d] + width_;
+    return p;
+  }
+  template <class Visit>
+  static void for_rows(CellLayer<T>& layer, Planes const& p, Visit visit) {
+    for (Index k = p.begin[2]; k < p.end[2]; ++k)
+      for (Index j = p.begin[1]; j < p.end[1]; ++j) visit(layer.at(p.begin[0], j, k), p.end[0] - p.begin[0]);
   }
   Partner& partner(int rank) {
     for (Partner& p : partners_)
@@ -170,7 +184,6 @@ class LayerExchange {
   std::vector<Partner> partners_;
   std::vector<parallel::Comm::Send> sends_;
   std::vector<parallel::Comm::Receive> receives_;
-  std::vector<T> buffer_;
   std::vector<char> received_;
 };
 

@@ -101,7 +101,6 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
   auto const& component = sweep_component[d];
   fluid::CellLayer<std::uint8_t> const* const marks = flow_.marks(block);
   auto const across = static_cast<std::uint8_t>(7u & ~(1u << d));
-  if (marks) scratch_marks_.resize(static_cast<std::size_t>(n + 2) * width);
 
   fluid::SweepReport total;
   flux_between_solids(block, wall, direction, sigma);
@@ -115,6 +114,7 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
     Index longest = 0;
     for (std::size_t lane = 0; lane < used; ++lane)
       longest = std::max(longest, std::min(runs[base + lane].end, n) - std::max(runs[base + lane].begin, 0));
+    if (marks) scratch_marks_.assign(static_cast<std::size_t>(longest) + 2, 0);
     Real* const u0 = scratch_u_.data() + static_cast<std::size_t>(ghost) * 5 * width;
     for (std::size_t lane = 0; lane < width; ++lane) {
       WallBlock::Run const& run = runs[base + std::min(lane, used - 1)];
@@ -153,8 +153,7 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
         for (Index i = -1; i <= longest; ++i) {
           CellIndex at = c;
           at[d] = std::min(start + std::clamp(i, std::max(run.begin - start, Index{-1}), run.end - 1 - start), n);
-          scratch_marks_[static_cast<std::size_t>(i + 1) * width + lane] =
-              (*marks->at(at[0], at[1], at[2]) & across) != 0;
+          if (*marks->at(at[0], at[1], at[2]) & across) scratch_marks_[static_cast<std::size_t>(i + 1)] |= 1u << lane;
         }
       for (Index f = 0; f <= longest; ++f) {
         Index const at = start + f;
@@ -171,7 +170,7 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
                                    scratch_flux_.data(),
                                    scratch_pressure_.data(),
                                    scratch_order_.data(),
-                                   marks ? scratch_marks_.data() + width : nullptr};
+                                   marks ? scratch_marks_.data() + 1 : nullptr};
     fluid::SweepReport const report = fluid::sweep_lines(order, bundle, static_cast<std::uint32_t>((1u << used) - 1),
                                                          sigma, flow_.gas(), flow_.options());
     total.fallback_faces += report.fallback_faces;

@@ -91,7 +91,8 @@ class WallSweeper : public fluid::BlockSweeper {
   StateGather images_;
   CellSet near_;
   std::vector<Real> scratch_u_, scratch_result_, scratch_flux_, scratch_pressure_;
-  std::vector<std::uint8_t> scratch_order_, scratch_marks_;
+  std::vector<std::uint8_t> scratch_order_;
+  std::vector<std::uint32_t> scratch_marks_;
 };
 
 }  // namespace brisance::coupling

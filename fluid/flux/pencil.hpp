@@ -45,12 +45,8 @@ struct PencilData {
   /// pencil itself walks with a stride the hardware does not follow; ask for its cell 12 ahead.
   std::array<Real const*, 5> next{};
   std::ptrdiff_t const* next_offset = nullptr;
-  /// Marks of the transverse cure: of cell c of a lane at marks[mark_offset[lane] + c * mark_stride]; those in
-  /// `mark_mask` count. Null: no cure.
-  std::uint8_t const* marks = nullptr;
-  std::array<std::ptrdiff_t, lanes_of<Pack>> mark_offset{};
-  std::ptrdiff_t mark_stride = 0;
-  std::uint8_t mark_mask = 0;
+  /// Of the cells -1 .. n, at cell 0: the lanes beside a shock that runs across the sweep. Null: none.
+  std::uint32_t const* marks = nullptr;
 };
 
 /// Runs between walls: what the caller wants back, and the order of each face. Arrays as in LineBundle.
@@ -182,16 +178,13 @@ class Pencil {
 
   /// `speed` in the lanes where one of the cells c-1 and c is marked by a shock across the sweep, else 0. Marks reach
   /// one cell beyond the pencil.
-  [[gnu::noinline, gnu::cold]] static V cure_speed(PencilData const& data, Index c, V speed) {
-    auto const marked = [&](Index cell) {
-      Index const at = cell < -1 ? -1 : cell > data.n ? data.n : cell;
-      Real mark[lanes];
-      for (int lane = 0; lane < lanes; ++lane)
-        mark[lane] =
-            data.marks[data.mark_offset[static_cast<std::size_t>(lane)] + at * data.mark_stride] & data.mark_mask;
-      return load<V>(mark) > V(0.0);
-    };
-    return select(marked(c - 1) | marked(c), speed, V(0.0));
+  static V cure_speed(PencilData const& data, Index c, V speed) {
+    if (c < 0 || c > data.n) return V(0.0);  // no flux of this pencil
+    std::uint32_t const marked = data.marks[c - 1] | data.marks[c];
+    if (marked == 0) return V(0.0);
+    Real mark[lanes];
+    for (int lane = 0; lane < lanes; ++lane) mark[lane] = marked >> lane & 1;
+    return select(load<V>(mark) > V(0.0), speed, V(0.0));
   }
 
   /// Flux of the face in the middle of the window, minus its low-order flux.

@@ -82,8 +82,8 @@ struct LineBundle {
   /// [face 0..n][lane]: order of each face, at most `order` (below 5 only if it is `order`); 0: the face is outside the
   /// run of its lane, its flux is nonsense, and it and its cells enter neither counts nor extrema.
   std::uint8_t const* face_order;
-  /// [cell -1..n][lane]: 1 where a shock runs across the sweep, as CellBox::marks; at cell 0. Null: nowhere.
-  std::uint8_t const* marks = nullptr;
+  /// [cell -1..n]: lanes (one bit each) where a shock runs across the sweep; at cell 0. Null: nowhere.
+  std::uint32_t const* marks = nullptr;
 };
 /// As sweep_box for runs between walls (theory/coupling.md 1.9). `flux_low/high`, `where` and health are left empty:
 /// the caller judges. Faces see neighbours only through `u`: mirror cells stand there. Counts fallback faces per lane

@@ -104,6 +104,27 @@ class BoxSweep {
 
   std::ptrdiff_t offset(Index fast, Index slow) const { return fast * box_.stride[fast_] + slow * box_.stride[slow_]; }
 
+  bool cured() const { return options_.shear_dissipation > 0 && box_.marks; }
+  /// The marks of a bundle, a bit a lane; `start(lane)` is the place of its cell 0. A bundle without any runs as if
+  /// there were no cure.
+  template <class Start>
+  void gather_marks(PencilData& data, Lanes const& lanes, Start start) {
+    auto const across = static_cast<std::uint8_t>(7u & ~(1u << along_));
+    std::ptrdiff_t const stride = box_.mark_stride[along_];
+    marks_.assign(static_cast<std::size_t>(data.n) + 2, 0);
+    std::uint32_t any = 0;
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      if (!(lanes.valid >> lane & 1)) continue;
+      std::uint8_t const* const mark = box_.marks + start(lane);
+      for (Index c = -1; c <= data.n; ++c) {
+        std::uint32_t const bit = (mark[c * stride] & across) != 0 ? 1u << lane : 0u;
+        marks_[static_cast<std::size_t>(c + 1)] |= bit;
+        any |= bit;
+      }
+    }
+    if (any) data.marks = marks_.data() + 1;
+  }
+
   std::ptrdiff_t mark_offset(Index fast, Index slow) const {
     return fast * box_.mark_stride[fast_] + slow * box_.mark_stride[slow_];
   }
@@ -117,7 +138,7 @@ class BoxSweep {
     Lanes lanes;
     for (Index lane = 0; lane < width; ++lane) lanes.pencil[std::size_t(lane)] = fast + lane;
     lanes.counted_low = lanes.counted_high = all;
-    for (std::size_t lane = 0; lane < width; ++lane) data.mark_offset[lane] = mark_offset(lanes.pencil[lane], slow);
+    if (cured()) gather_marks(data, lanes, [&](std::size_t lane) { return mark_offset(lanes.pencil[lane], slow); });
     take(data, lanes, [&](std::size_t lane) { return std::array{lanes.pencil[lane], slow}; });
   }
 
@@ -142,9 +163,11 @@ class BoxSweep {
         data.next[q] = u_[q];
       }
       data.next_offset = next.offset.data();
-      for (std::size_t lane = 0; lane < width; ++lane)
-        data.mark_offset[lane] = mark_offset(start + lanes.pencil[lane] % span, lanes.pencil[lane] / span) +
-                                 lanes.first[lane] * box_.mark_stride[along_];
+      if (cured())
+        gather_marks(data, lanes, [&](std::size_t lane) {
+          return mark_offset(start + lanes.pencil[lane] % span, lanes.pencil[lane] / span) +
+                 lanes.first[lane] * box_.mark_stride[along_];
+        });
       take(data, lanes, [&](std::size_t lane) {
         return std::array{start + lanes.pencil[lane] % span, lanes.pencil[lane] / span};
       });
@@ -179,11 +202,7 @@ class BoxSweep {
   /// Sweeps a bundle and adds what it saw to the report of the box; `place(lane)` gives the pencil's (fast, slow)
   /// indices.
   template <class Place>
-  void take(PencilData& data, Lanes const& lanes, Place place) {
-    if (options_.shear_dissipation > 0 && box_.marks) {
-      data.marks = box_.marks, data.mark_stride = box_.mark_stride[along_];
-      data.mark_mask = static_cast<std::uint8_t>(7u & ~(1u << along_));
-    }
+  void take(PencilData const& data, Lanes const& lanes, Place place) {
     PencilReport<Pack> seen;
     seen.signal = signal_;
     pencil_.sweep(data, nullptr, sigma_, gas_, options_, seen);
@@ -214,6 +233,7 @@ class BoxSweep {
   std::array<std::size_t, 5> const component_;
   std::array<Real*, 5> u_{}, result_{};
   Pencil<Order, Pack, Curve, false, Smooth> pencil_;
+  std::vector<std::uint32_t> marks_;
   Pack signal_ = Pack(0.0);
   SweepReport report_;
 };
@@ -231,10 +251,7 @@ SweepReport sweep_lines_of(LineBundle const& lines, std::uint32_t valid_lanes, R
     data.in[q] = lines.u + q * width;
     data.out[q] = lines.result + q * width;
   }
-  if (options.shear_dissipation > 0 && lines.marks) {
-    data.marks = lines.marks, data.mark_stride = width, data.mark_mask = 1;
-    for (std::size_t lane = 0; lane < width; ++lane) data.mark_offset[lane] = static_cast<std::ptrdiff_t>(lane);
-  }
+  if (options.shear_dissipation > 0) data.marks = lines.marks;
   RunData const runs{lines.flux, lines.pressure, lines.face_order};
   Pencil<Order, Pack, Curve, true, Smooth> pencil;
   PencilReport<Pack> seen;

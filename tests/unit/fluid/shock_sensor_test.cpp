@@ -35,7 +35,7 @@ std::map<GlobalId, int> marks_of(FlowConfig const& c, std::function<Real(CellInd
     Real const p = pressure(i);
     return p > 0 ? flow.gas().conserved(1, {}, p) : State{};
   });
-  flow.begin_step();
+  flow.begin_pair();
   parallel::Bytes mine;
   for (Block const& block : flow.blocks())
     if (auto const* layer = flow.marks(block))
