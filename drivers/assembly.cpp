@@ -151,6 +151,12 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   require(!coupled || w.dimension >= 2, Failure::scene, "coupling.cut_cells needs a fluid in 2 or 3 dimensions");
   if (coupled && !scene.fluid->euler)
     scene_error(scene.fluid->at, "coupling.cut_cells needs the effect fluid.euler: add euler = {} to [fluid]");
+  bool const merged = scene.fluid && scene.fluid->splitting() == fluid::Splitting::merged;
+  if (coupled && merged)
+    scene_error(
+        scene.fluid->euler->at,
+        "fluid.euler.splitting = \"merged\" has no balance at moving walls, which needs whole steps: take \"pair\" "
+        "with coupling.cut_cells");
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
     w.surface = std::make_unique<solid::Surface>(*w.mesh);

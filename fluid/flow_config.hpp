@@ -37,11 +37,15 @@ struct GasState {
   }
 };
 
+/// How the sweeps of two steps follow each other (time_step.hpp).
+enum class Splitting { pair, merged };
+
 struct EulerConfig {
   int order = 5;
   double cfl = 0.8;
   bool hybrid = true;
   double shear_dissipation = 1.2;
+  std::string splitting = "pair";
   Location at;
   static void keys(Keys<EulerConfig>& k) {
     k("order", &EulerConfig::order, "", "order of the OSMP flux").one_of({1, 3, 5, 7, 9, 11});
@@ -58,6 +62,10 @@ struct EulerConfig {
       "strong shocks along the grid whole; 0: off")
         .at_least(0)
         .at_most(2);
+    k("splitting", &EulerConfig::splitting, "",
+      "2D and 3D: pair: XY|YX; merged: X/2 Y X Y X/2, a quarter of the splitting error for 5/4 (2D) or 3/2 (3D) of the "
+      "sweeps")
+        .one_of({"pair", "merged"});
   }
 };
 
@@ -118,6 +126,7 @@ struct FlowConfig {
   Location at;
 
   int order() const { return euler ? euler->order : 1; }
+  Splitting splitting() const { return euler && euler->splitting == "merged" ? Splitting::merged : Splitting::pair; }
   SweepOptions options() const {
     return euler ? SweepOptions{euler->hybrid, euler->shear_dissipation} : SweepOptions{};
   }
