@@ -153,6 +153,15 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   require(!coupled || w.dimension >= 2, Failure::scene, "coupling.cut_cells needs a fluid in 2 or 3 dimensions");
   if (coupled && !scene.fluid->euler)
     scene_error(scene.fluid->at, "coupling.cut_cells needs the effect fluid.euler: add euler = {} to [fluid]");
+  if (scene.fluid && scene.fluid->splitting() == fluid::Splitting::merged) {
+    char const* const other = coupled                  ? "coupling.cut_cells"
+                              : scene.fluid->viscosity ? "fluid.viscosity"
+                              : scene.fluid->gravity   ? "fluid.gravity"
+                                                       : nullptr;
+    if (other)
+      scene_error(scene.fluid->euler->at, std::string("fluid.euler.splitting = \"merged\" has no whole steps, which ") +
+                                              other + " acts between: take \"pair\" with it");
+  }
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
     w.surface = std::make_unique<solid::Surface>(*w.mesh);

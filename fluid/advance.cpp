@@ -20,12 +20,12 @@ PairReport sweep_pair(Flow& flow, FlowClock const& clock, Real dt) {
   PairReport pair;
   flow.begin_pair();
   for (int s = 0; s < steps_per_pair(grid.dimension); ++s) {
-    for (int const d : directions(grid.dimension, clock.step + s)) {
-      SweepReport const report = flow.sweep(d, dt, clock.time + (s + 0.5) * dt);
+    for (auto const [d, share, middle] : sweeps(grid.dimension, clock.step + s, flow.splitting())) {
+      SweepReport const report = flow.sweep(d, share * dt, clock.time + (s + middle) * dt);
       pair.health |= report.health;
       if (report.health) pair.where = std::min(pair.where, grid.cell_id(report.where));
       pair.fallback_faces += report.fallback_faces;
-      pair.courant = max(pair.courant, dt / grid.spacing[d] * report.signal_max);
+      pair.courant = max(pair.courant, share * dt / grid.spacing[d] * report.signal_max);
     }
   }
   return pair;

@@ -6,11 +6,14 @@ namespace brisance::fluid {
 
 void Euler::join(Plan& plan) {
   plan.effect("fluid.euler", [this] { return flow_.bytes(); });
-  for (int sweep = 0; sweep < flow_.grid().dimension; ++sweep)
-    plan.at(Stage::sweeps, [this, sweep](Clock const& clock) {
-      int const direction = directions(flow_.grid().dimension, clock.step)[static_cast<std::size_t>(sweep)];
-      if (sweep == 0 && clock.step % steps_per_pair(flow_.grid().dimension) == 0) flow_.begin_pair();
-      SweepReport const report = flow_.sweep(direction, clock.dt, clock.time + 0.5 * clock.dt);
+  int const dimension = flow_.grid().dimension;
+  for (std::size_t sweep = 0; sweep < static_cast<std::size_t>(most_sweeps(dimension, flow_.splitting())); ++sweep)
+    plan.at(Stage::sweeps, [this, sweep, dimension](Clock const& clock) {
+      std::vector<Sweep> const sequence = sweeps(dimension, clock.step, flow_.splitting());
+      if (sweep >= sequence.size()) return;  // the second step of a merged pair
+      auto const [direction, share, middle] = sequence[sweep];
+      if (sweep == 0 && clock.step % steps_per_pair(dimension) == 0) flow_.begin_pair();
+      SweepReport const report = flow_.sweep(direction, share * clock.dt, clock.time + middle * clock.dt);
       fallback_faces_ += report.fallback_faces;
       if (report.health != 0 && report_.health == 0) report_.where = report.where;
       report_.health |= report.health;

@@ -25,6 +25,7 @@ Flow::Flow(FlowConfig const& config, Grid grid, std::vector<int> owner, parallel
       boundaries_(config, gas_, grid_),
       ghosts_(grid_, owner_, blocks_, boundaries_, comm),
       options_(config.options()),
+      splitting_(config.splitting()),
       sleep_(config.sleep),
       saved_(blocks_.size()),
       uniform_(blocks_.size()),

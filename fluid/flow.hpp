@@ -72,6 +72,7 @@ class Flow {
     return sensor_ ? sensor_->marks(static_cast<std::size_t>(&block - blocks_.data())) : nullptr;
   }
   SweepOptions const& options() const { return options_; }
+  Splitting splitting() const { return splitting_; }
 
   /// What the cells of the block at this position in blocks() hold now; looked at once, and again after they changed.
   Survey const& survey(std::size_t position) const;
@@ -119,6 +120,7 @@ class Flow {
   Ghosts ghosts_;
   BoundaryLedger ledger_, saved_ledger_;
   SweepOptions options_;
+  Splitting splitting_;
   std::unique_ptr<ShockSensor> sensor_;
   bool sleep_;
   /// What save() promised of a block. Most blocks are never copied: their first sweep after it goes from the block into

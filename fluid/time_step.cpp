@@ -7,15 +7,28 @@
 
 namespace brisance::fluid {
 
-std::vector<int> directions(int dimension, std::int64_t step) {
-  if (dimension == 1) return {0};
+std::vector<Sweep> sweeps(int dimension, std::int64_t step, Splitting splitting) {
+  if (dimension == 1) return {{0}};
   bool const back = step % 2 != 0;
-  if (dimension == 2) return back ? std::vector<int>{1, 0} : std::vector<int>{0, 1};
-  int const turn = static_cast<int>(step / 2 % 3);
-  std::vector<int> sequence{turn, (turn + 1) % 3, (turn + 2) % 3};
-  if (back) std::swap(sequence[0], sequence[2]);
+  int const turn = static_cast<int>(step / 2 % dimension);
+  if (splitting == Splitting::pair) {
+    if (dimension == 2) return back ? std::vector<Sweep>{{1}, {0}} : std::vector<Sweep>{{0}, {1}};
+    std::vector<Sweep> sequence{{turn}, {(turn + 1) % 3}, {(turn + 2) % 3}};
+    if (back) std::swap(sequence[0], sequence[2]);
+    return sequence;
+  }
+  int const a = turn, b = (turn + 1) % dimension, c = (turn + 2) % dimension;
+  // What a step does between the half sweeps of its first direction.
+  std::vector<Sweep> inner{{b}};
+  if (dimension == 3) inner = {{b, 0.5, 0.25}, {c}, {b, 0.5, 0.75}};
+  std::vector<Sweep> sequence;
+  if (!back) sequence.push_back({a, 0.5, 0.25});
+  sequence.insert(sequence.end(), inner.begin(), inner.end());
+  sequence.push_back(back ? Sweep{a, 0.5, 0.75} : Sweep{a, 1, 1});
   return sequence;
 }
+
+int most_sweeps(int dimension, Splitting splitting) { return static_cast<int>(sweeps(dimension, 0, splitting).size()); }
 
 namespace {
 

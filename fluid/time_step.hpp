@@ -11,8 +11,19 @@
 
 namespace brisance::fluid {
 
-/// Directions of the sweeps of step n, in order: XYZ|ZYX, YZX|XZY, ZXY|YXZ in 3D (period 6), XY|YX in 2D, X in 1D.
-std::vector<int> directions(int dimension, std::int64_t step);
+/// One sweep of a step.
+struct Sweep {
+  int direction;
+  Real share = 1;     ///< of the time step
+  Real middle = 0.5;  ///< time at which the sides are taken, in time steps from the start of the step
+};
+/// Sweeps of step n, in order. `pair`: XYZ|ZYX, YZX|XZY, ZXY|YXZ in 3D (period 6), XY|YX in 2D, X in 1D. `merged`: the
+/// two steps of a pair are Strang steps of their own whose adjacent half sweeps are one: X/2 Y X | Y X/2 in 2D, letters
+/// exchanged from pair to pair; X/2 Y/2 Z Y/2 X | Y/2 Z Y/2 X/2 in 3D, letters rotating. A quarter of the splitting
+/// error for 5/4 (2D) or 3/2 (3D) of the sweeps.  Source: theory/fluid.md 3; Strang 1968.
+std::vector<Sweep> sweeps(int dimension, std::int64_t step, Splitting splitting);
+/// Largest number of sweeps a step has.
+int most_sweeps(int dimension, Splitting splitting);
 
 /// Steps that share one time step and are accepted or rejected together.
 inline int steps_per_pair(int dimension) { return dimension == 1 ? 1 : 2; }

@@ -12,19 +12,38 @@
 namespace brisance::fluid {
 namespace {
 
-std::string sequence(int dimension, int steps) {
+/// Whole sweeps as capitals, half ones as small letters.
+std::string sequence(int dimension, int steps, Splitting splitting) {
   std::string text;
   for (int n = 0; n < steps; ++n) {
-    for (int const d : directions(dimension, n)) text += "XYZ"[d];
+    for (Sweep const& s : sweeps(dimension, n, splitting)) text += (s.share == 1 ? "XYZ" : "xyz")[s.direction];
     text += ' ';
   }
   return text;
 }
 
-TEST(Directions, ArePalindromicPairsThatRotateInThreeDimensions) {
-  EXPECT_EQ(sequence(1, 2), "X X ");
-  EXPECT_EQ(sequence(2, 4), "XY YX XY YX ");
-  EXPECT_EQ(sequence(3, 8), "XYZ ZYX YZX XZY ZXY YXZ XYZ ZYX ");
+TEST(Sweeps, ArePalindromicPairsThatRotateInThreeDimensions) {
+  EXPECT_EQ(sequence(1, 2, Splitting::pair), "X X ");
+  EXPECT_EQ(sequence(2, 4, Splitting::pair), "XY YX XY YX ");
+  EXPECT_EQ(sequence(3, 8, Splitting::pair), "XYZ ZYX YZX XZY ZXY YXZ XYZ ZYX ");
+  EXPECT_EQ(sequence(1, 2, Splitting::merged), "X X ");
+  EXPECT_EQ(sequence(2, 4, Splitting::merged), "xYX Yx yXY Xy ");
+  EXPECT_EQ(sequence(3, 6, Splitting::merged), "xyZyX yZyx yzXzY zXzy zxYxZ xYxz ");
+}
+
+TEST(Sweeps, TakeTheSidesInTheMiddleOfTheirOwnTime) {
+  for (int dimension : {1, 2, 3})
+    for (Splitting splitting : {Splitting::pair, Splitting::merged})
+      for (std::int64_t first : {0, 2, 4}) {
+        std::array<Real, 3> reached{};  // time of each direction, in time steps
+        for (std::int64_t s = 0; s < 2; ++s)
+          for (Sweep const& sweep : sweeps(dimension, first + s, splitting)) {
+            auto const d = static_cast<std::size_t>(sweep.direction);
+            EXPECT_EQ(reached[d] + 0.5 * sweep.share, static_cast<Real>(s) + sweep.middle);
+            reached[d] += sweep.share;
+          }
+        for (int d = 0; d < dimension; ++d) EXPECT_EQ(reached[static_cast<std::size_t>(d)], 2);
+      }
 }
 
 /// Random gas with vacuum cells here and there.
