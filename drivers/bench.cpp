@@ -60,12 +60,8 @@ std::vector<Bench> all_benches(parallel::Comm& comm) {
     steps(fmt::format("fluid.1d.order{}", order), order, {96 * 96 * 96});
     steps(fmt::format("fluid.1d.order{}.short", order), order, {10000});
   }
-  for (int dimension = 1; dimension <= 3; ++dimension)
-    for (int order = 1; order <= 11; order += 2)
-      benches.push_back({fmt::format("fluid.{}d.order{}", dimension, order),
-                         [=](auto const& roofs) { return fluid::bench_sweep(order, dimension, roofs); }});
   for (int dimension = 2; dimension <= 3; ++dimension)
-    benches.push_back({fmt::format("fluid.{}d.viscous", dimension),
+    benches.push_back({fmt::format("fluid.kernel.{}d.viscous", dimension),
                        [=](auto const& roofs) { return fluid::bench_viscous(dimension, roofs); }});
   benches.push_back({"solid.links.cache", [](auto const& roofs) { return link_row("solid.links.cache", 10, roofs); }});
   benches.push_back(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/wall_profile.hpp"
@@ -80,7 +81,7 @@ void ViscousWall::begin_step() {
 
 State ViscousWall::state(CellIndex c) const {
   fluid::Grid const& grid = flow_.grid();
-  if (fluid::Block const* const block = flow_.find(grid.block_of(c))) {
+  if (fluid::Block const* const block = std::as_const(flow_).find(grid.block_of(c))) {
     CellIndex const first = block->first();
     return block->load(c[0] - first[0], c[1] - first[1], c[2] - first[2]);
   }

@@ -70,7 +70,7 @@ BenchRow bench_viscous(int dimension, MachineRoofs const& roofs) {
   // text: primitives 26, a face 47 (2D: 34), an update 10 for each of four columns (2D: 8), a check 12.
   Real const bytes = 8.0 * 2 * (5 + 8 + 9 + 4);
   Real const flops = stages_per_step * (26 + (dimension == 3 ? 3 * 47 + 40 : 2 * 34 + 32) + 12.0);
-  BenchRow row{"fluid." + std::to_string(dimension) + "d.viscous",
+  BenchRow row{"fluid.kernel." + std::to_string(dimension) + "d.viscous",
                static_cast<Real>(blocks) * static_cast<Real>(grid.cell_count()) / best, bytes, flops, 0};
   row.limit_share =
       max(row.items_per_s * bytes / roofs.bytes_per_s, row.items_per_s * row.flops_per_item / roofs.flops_per_s);

@@ -1,6 +1,7 @@
 #include "fluid/diffusion/viscosity.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace brisance::fluid {
 namespace {
@@ -48,12 +49,12 @@ Viscosity::Viscosity(FlowConfig const& config, Flow& flow)
       flow_(flow),
       transport_(config_, flow.gas()),
       sides_(config, flow.gas(), flow.boundaries()),
-      ghosts_(flow.grid(), flow.owners(), flow.blocks(),
+      ghosts_(flow.grid(), flow.owners(), flow.blocks(), flow.boundaries(), flow.comm(), {1, true},
               [this](Block& block, int direction, int side, Real time, GhostRange const& range) {
                 sides_.fill(block, direction, side, time, range);
-              },
-              flow.comm(), {1, true}),
+              }),
       block_stage_(transport_, flow.grid()) {
+  flow.keep_awake();  // these steps write into all cells
   if (config_.time == "strang")
     for (Block const& block : flow.blocks()) before_.emplace_back(BlockStage::before_size(block));
 }
@@ -87,7 +88,7 @@ void Viscosity::join(Plan& plan) {
 Real Viscosity::stable_step() const {
   Real largest = 0;  // kinematic viscosity
   std::vector<Real> row;
-  for (Block const& block : flow_.blocks()) {
+  for (Block const& block : std::as_const(flow_).blocks()) {
     auto const [nx, ny, nz] = block.size();
     CellIndex const first = block.first();
     bool const cut = volume_.cuts(block.id());
@@ -134,8 +135,9 @@ void Viscosity::exchange() {
 void Viscosity::stage(Real tau, DiffusionStage stage, Real weight) {
   Grid const& grid = flow_.grid();
   exchange();
-  for (std::size_t b = 0; b < flow_.blocks().size(); ++b) {
-    Block& block = flow_.blocks()[b];
+  std::vector<Block>& blocks = flow_.blocks();  // tells the flow that they change
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    Block& block = blocks[b];
     std::array<bool, 6> sides{};
     for (int d = 0; d < grid.dimension; ++d)
       for (int side = 0; side < 2; ++side)

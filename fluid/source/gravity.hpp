@@ -12,7 +12,7 @@ namespace brisance::fluid {
 class Gravity : public Effect {
  public:
   /// `flow` must outlive this.
-  Gravity(GravityConfig const& config, Flow& flow) : g_(config.acceleration), flow_(flow) {}
+  Gravity(GravityConfig const& config, Flow& flow) : g_(config.acceleration), flow_(flow) { flow.keep_awake(); }
   void join(Plan& plan) override;
 
   /// Fluid volume of a cell where walls cut cells.
