@@ -108,13 +108,13 @@ class BoxSweep {
   /// The marks of a bundle, a bit a lane; `start(lane)` is the place of its cell 0. A bundle without any runs as if
   /// there were no cure.
   template <class Start>
-  void gather_marks(PencilData& data, Lanes const& lanes, Start start) {
+  void gather_marks(PencilData& data, Start start) {
     auto const across = static_cast<std::uint8_t>(7u & ~(1u << along_));
     std::ptrdiff_t const stride = box_.mark_stride[along_];
     marks_.assign(static_cast<std::size_t>(data.n) + 2, 0);
     std::uint32_t any = 0;
     for (std::size_t lane = 0; lane < width; ++lane) {
-      if (!(lanes.valid >> lane & 1)) continue;
+      if (!(data.valid >> lane & 1)) continue;
       std::uint8_t const* const mark = box_.marks + start(lane);
       for (Index c = -1; c <= data.n; ++c) {
         std::uint32_t const bit = (mark[c * stride] & across) != 0 ? 1u << lane : 0u;
@@ -138,7 +138,7 @@ class BoxSweep {
     Lanes lanes;
     for (Index lane = 0; lane < width; ++lane) lanes.pencil[std::size_t(lane)] = fast + lane;
     lanes.counted_low = lanes.counted_high = all;
-    if (cured()) gather_marks(data, lanes, [&](std::size_t lane) { return mark_offset(lanes.pencil[lane], slow); });
+    if (cured()) gather_marks(data, [&](std::size_t lane) { return mark_offset(lanes.pencil[lane], slow); });
     take(data, lanes, [&](std::size_t lane) { return std::array{lanes.pencil[lane], slow}; });
   }
 
@@ -164,7 +164,7 @@ class BoxSweep {
       }
       data.next_offset = next.offset.data();
       if (cured())
-        gather_marks(data, lanes, [&](std::size_t lane) {
+        gather_marks(data, [&](std::size_t lane) {
           return mark_offset(start + lanes.pencil[lane] % span, lanes.pencil[lane] / span) +
                  lanes.first[lane] * box_.mark_stride[along_];
         });
