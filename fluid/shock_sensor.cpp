@@ -9,8 +9,8 @@ namespace {
 constexpr Index reach = 2;        // cells along d whose pressures a mark depends on
 constexpr Real steep_jump = 0.5;  // of the smaller pressure
 // Only shocks along the grid break up. A shock at an angle jumps along several directions: it is left alone from about
-// 9 degrees on, because shear dissipation along it costs accuracy (20 % on a spherical blast).
-constexpr Real oblique_jump = 0.15;  // of the jump along d
+// 6 degrees on, because shear dissipation along it costs accuracy (20 % on a spherical blast).
+constexpr Real oblique_jump = 0.1;  // of the jump along d
 constexpr int pressure_tag = 8, mark_tag = 9;
 
 /// rho c^2 / gamma: the pressure of an ideal gas, p + p_inf of a stiffened one; 0 in vacuum.
