@@ -211,6 +211,7 @@ TEST(Sweep, DirectionsGiveTheSameBits) {
         std::size_t const along = static_cast<std::size_t>(d), fast = d == 0 ? 1 : 0, slow = d == 2 ? 1 : 2;
         size[along] = n, size[fast] = b, size[slow] = a;
         FluxBox box(size, ghosts);
+        std::vector<std::uint8_t> mark(box.u[0].size(), 0);
         auto const component = sweep_components(d);
         auto place = [&](Index c, Index f, Index s) {
           std::array<Index, 3> at{};
@@ -225,8 +226,12 @@ TEST(Sweep, DirectionsGiveTheSameBits) {
               for (std::size_t q = 0; q < 5; ++q) y[component[q]] = x[q];
               auto const at = place(c, f, s);
               box.set(at[0], at[1], at[2], y);
+              bool const marked = (c / 4 + f + 5 * s + 9) % 3 == 0;
+              mark[box.at(at[0], at[1], at[2])] = static_cast<std::uint8_t>(marked ? 7 & ~(1 << d) : 1 << d);
             }
-        sweep_box(order, box.view(), d, sigma, gas);
+        CellBox view = box.view();
+        view.marks = mark.data() + box.at(0, 0, 0), view.mark_stride = view.stride;
+        sweep_box(order, view, d, sigma, gas, {true, 1.2});
         std::size_t m = 0;
         for (Index s = 0; s < a; ++s)
           for (Index f = 0; f < b; ++f)
