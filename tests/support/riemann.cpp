@@ -3,109 +3,142 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/quadrature.hpp"
+
 namespace brisance::testing {
+namespace {
 
-RiemannProblem::RiemannProblem(Primitive left, Primitive right, double gamma) : gamma_(gamma) {
-  auto sound = [&](Primitive const& s) { return s.density > 0 ? std::sqrt(gamma * s.pressure / s.density) : 0.0; };
-  left_ = {left, sound(left), -1}, right_ = {right, sound(right), 1};
-  double const k = gamma - 1, gap = right.velocity - left.velocity;
-  vacuum_ = empty(left_) || empty(right_) || 2 * (left_.sound + right_.sound) / k <= gap;
-  if (vacuum_) return;
-  // f(p) = du_L(p) + du_R(p) + u_R - u_L increases and is concave: Newton from the left of the root converges without
-  // overshoot; the two-rarefaction pressure lies left of or at it.
-  double const z = k / (2 * gamma);
-  double p = std::pow((left_.sound + right_.sound - 0.5 * k * gap) /
-                          (left_.sound / std::pow(left.pressure, z) + right_.sound / std::pow(right.pressure, z)),
-                      1 / z);
-  double low = 0, high = 0;
-  auto f = [&](double q) { return velocity_change(left_, q) + velocity_change(right_, q) + gap; };
-  for (high = std::max({p, left.pressure, right.pressure}); f(high) < 0;) high *= 2;
-  for (int turn = 0; turn < 400; ++turn) {
-    double const value = f(p);
-    (value < 0 ? low : high) = p;
-    double const step = 1e-7 * p, slope = (f(p + step) - value) / step;
-    double next = p - value / slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - p) <= 1e-15 * p) break;
-    p = next;
+/// Zero of an increasing function by bisection to the last bit.
+template <class F>
+double increasing_root(F const& f, double low, double high) {
+  for (;;) {
+    double const middle = 0.5 * (low + high);
+    if (!(middle > low && middle < high)) return middle;
+    (f(middle) < 0 ? low : high) = middle;
   }
-  star_pressure_ = p;
-  star_velocity_ = 0.5 * (left.velocity + right.velocity + velocity_change(right_, p) - velocity_change(left_, p));
 }
 
-double RiemannProblem::velocity_change(Side const& s, double p) const {
-  double const k = gamma_ - 1, p0 = s.state.pressure;
+}  // namespace
+
+WaveCurve::WaveCurve(Primitive ahead, fluid::Gas const& gas, double sign) : ahead_(ahead), gas_(gas), sign_(sign) {
+  if (empty()) return;
+  double const phi = (ahead.pressure - gas.reference_pressure(ahead.density)) / gas.kappa();
+  isentrope_ = phi / std::pow(ahead.density, gas.gamma);
+}
+
+double WaveCurve::density(double s) const { return ahead_.density * std::pow(s, 2 / gas_.kappa()); }
+
+double WaveCurve::pressure(double s) const {
+  double const rho = density(s);
+  return gas_.reference_pressure(rho) + gas_.kappa() * isentrope_ * std::pow(rho, gas_.gamma);
+}
+
+double WaveCurve::sound(double s) const {
+  double const rho = density(s);
+  if (!(rho > 0)) return 0;
+  return std::sqrt(gas_.reference_slope(rho) + gas_.gamma * gas_.kappa() * isentrope_ * std::pow(rho, gas_.kappa()));
+}
+
+double WaveCurve::velocity(double s) const {
+  // c d(rho)/rho = (2/Gamma) (c/s) ds, and c/s is a constant where the curve has no exponential
+  auto const c_over_s = [&](double z) { return sound(z) / z; };
+  return ahead_.velocity - sign_ * 2 / gas_.kappa() * integral(c_over_s, s, 1, gas_.curve.exponential() ? 24 : 1);
+}
+
+double WaveCurve::shock_pressure(double rho) const {
+  // e - e0 = (p + p0)(v0 - v)/2 with e = (p - p_ref)/(Gamma rho) + e_ref is linear in p
+  double const half = 0.5 * (1 / ahead_.density - 1 / rho);
+  auto const energy = [&](double density, double p) {
+    return (p - gas_.reference_pressure(density)) / (gas_.kappa() * density) + gas_.reference_energy(density) / density;
+  };
+  double const e0 = energy(ahead_.density, ahead_.pressure);
+  return (e0 + half * ahead_.pressure - energy(rho, 0)) / (1 / (gas_.kappa() * rho) - half);
+}
+
+Primitive WaveCurve::behind(double p) const {
+  double const p0 = ahead_.pressure;
   if (p > p0) {
-    double const a = 2 / ((gamma_ + 1) * s.state.density), b = k / (gamma_ + 1) * p0;
-    return (p - p0) * std::sqrt(a / (p + b));
+    double const densest = ahead_.density * (gas_.kappa() + 2) / gas_.kappa();
+    double const rho =
+        increasing_root([&](double density) { return shock_pressure(density) - p; }, ahead_.density, densest);
+    double const shrink = std::max(1 / ahead_.density - 1 / rho, 0.0);
+    return {rho, ahead_.velocity + sign_ * std::sqrt((p - p0) * shrink), p};
   }
-  return 2 * s.sound / k * (std::pow(p / p0, k / (2 * gamma_)) - 1);
+  double const s = increasing_root([&](double z) { return pressure(z) - p; }, 0, 1);
+  return {density(s), velocity(s), p};
 }
 
-double RiemannProblem::head(Side const& s) const {
-  if (!vacuum_ && star_pressure_ > s.state.pressure)
-    return s.state.velocity +
-           s.sign * s.sound *
-               std::sqrt((gamma_ + 1) / (2 * gamma_) * star_pressure_ / s.state.pressure + (gamma_ - 1) / (2 * gamma_));
-  return s.state.velocity + s.sign * s.sound;
+Primitive WaveCurve::fan(double speed) const {
+  // sign (u + sign c) falls from the head inwards
+  double const s = increasing_root([&](double z) { return sign_ * (velocity(z) - speed) + sound(z); }, 0, 1);
+  return {density(s), velocity(s), pressure(s)};
 }
 
-double RiemannProblem::tail(Side const& s) const {
-  double const k = gamma_ - 1;
-  if (vacuum_) return s.state.velocity - s.sign * 2 * s.sound / k;
-  if (star_pressure_ > s.state.pressure) return head(s);
-  return star_velocity_ + s.sign * s.sound * std::pow(star_pressure_ / s.state.pressure, k / (2 * gamma_));
+double WaveCurve::head(Primitive const& b) const {
+  double const shrink = b.density > 0 ? 1 / ahead_.density - 1 / b.density : 0;
+  if (!shock(b) || !(shrink > 0)) return ahead_.velocity + sign_ * sound(1);
+  return ahead_.velocity + sign_ * std::sqrt((b.pressure - ahead_.pressure) / shrink) / ahead_.density;
 }
 
-Primitive RiemannProblem::behind(Side const& s, double speed) const {
-  double const k = gamma_ - 1;
-  if (s.sign * (speed - head(s)) >= 0) return s.state;
-  if (s.sign * (speed - tail(s)) > 0) {  // fan
-    double const share = 2 / (gamma_ + 1) - s.sign * k / ((gamma_ + 1) * s.sound) * (s.state.velocity - speed);
-    double const c = std::max(share, 0.0);
-    return {s.state.density * std::pow(c, 2 / k),
-            2 / (gamma_ + 1) * (-s.sign * s.sound + 0.5 * k * s.state.velocity + speed),
-            s.state.pressure * std::pow(c, 2 * gamma_ / k)};
+double WaveCurve::tail(Primitive const& b) const {
+  if (shock(b)) return head(b);
+  return b.velocity + sign_ * sound(std::pow(b.density / ahead_.density, gas_.kappa() / 2));
+}
+
+RiemannProblem::RiemannProblem(Primitive left, Primitive right, double gamma)
+    : RiemannProblem(left, right, fluid::Gas{gamma, 0, 0}) {}
+
+RiemannProblem::RiemannProblem(Primitive left, Primitive right, fluid::Gas const& left_gas, fluid::Gas const& right_gas)
+    : left_(left, left_gas, -1), right_(right, right_gas, 1) {
+  double const lowest = std::max(left_.floor(), right_.floor());
+  auto const approach = [&](double p) { return right_.behind(p).velocity - left_.behind(p).velocity; };
+  vacuum_ = left_.empty() || right_.empty() || approach(lowest) >= 0;
+  if (vacuum_) {
+    bool const alone = left_.empty() || right_.empty();
+    if (!left_.empty()) left_star_ = left_.behind(alone ? left_.floor() : lowest);
+    if (!right_.empty()) right_star_ = right_.behind(alone ? right_.floor() : lowest);
+    return;
   }
-  if (vacuum_) return {0, 0, 0};
-  double const ratio = star_pressure_ / s.state.pressure, m = k / (gamma_ + 1);
-  double const density =
-      ratio > 1 ? s.state.density * (ratio + m) / (m * ratio + 1) : s.state.density * std::pow(ratio, 1 / gamma_);
-  return {density, star_velocity_, star_pressure_};
+  double high = std::max({left.pressure, right.pressure, lowest + 1});
+  while (approach(high) < 0) high += high - lowest;
+  double const p = increasing_root(approach, lowest, high);
+  left_star_ = left_.behind(p), right_star_ = right_.behind(p);
+  left_star_.velocity = right_star_.velocity = 0.5 * (left_star_.velocity + right_star_.velocity);
 }
 
 Primitive RiemannProblem::at(double speed) const {
+  auto const within = [&](WaveCurve const& wave, Primitive const& star, double sign) -> Primitive {
+    if (sign * (speed - wave.head(star)) >= 0) return wave.ahead();
+    if (sign * (speed - wave.tail(star)) > 0) return wave.fan(speed);
+    return star;
+  };
   if (vacuum_) {
-    if (!empty(left_) && speed < tail(left_)) return behind(left_, speed);
-    if (!empty(right_) && speed > tail(right_)) return behind(right_, speed);
+    if (!left_.empty() && speed < left_star_.velocity) return within(left_, left_star_, -1);
+    if (!right_.empty() && speed > right_star_.velocity) return within(right_, right_star_, 1);
     return {0, 0, 0};
   }
-  return behind(speed < star_velocity_ ? left_ : right_, speed);
+  return speed < left_star_.velocity ? within(left_, left_star_, -1) : within(right_, right_star_, 1);
 }
 
 std::vector<double> RiemannProblem::breaks() const {
   std::vector<double> list;
-  for (Side const& s : {left_, right_})
-    if (!empty(s)) list.insert(list.end(), {head(s), tail(s)});
-  if (!vacuum_) list.push_back(star_velocity_);
+  auto const add = [&](WaveCurve const& wave, Primitive const& star) {
+    if (wave.empty()) return;
+    for (double const speed : {wave.head(star), wave.tail(star), star.velocity}) list.push_back(speed);
+  };
+  add(left_, left_star_), add(right_, right_star_);
   std::sort(list.begin(), list.end());
   return list;
 }
 
 double RiemannProblem::mean_density(double low, double high, double t) const {
-  static double const node[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
-  static double const weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
   std::vector<double> ends{low};
   for (double const speed : breaks())
     if (double const x = speed * t; x > low && x < high) ends.push_back(x);
   ends.push_back(high);
   double mass = 0;
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    double const middle = 0.5 * (ends[i] + ends[i + 1]), half = 0.5 * (ends[i + 1] - ends[i]);
-    for (int n = 0; n < 4; ++n)
-      mass +=
-          half * weight[n] * (at((middle - half * node[n]) / t).density + at((middle + half * node[n]) / t).density);
-  }
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    mass += integral([&](double x) { return at(x / t).density; }, ends[i], ends[i + 1], 1);
   return mass / (high - low);
 }
 
