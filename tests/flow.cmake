@@ -38,3 +38,8 @@ brisance_test(fluid_given_sides
   SOURCES verification/fluid/given_sides_test.cpp
   LINKS brisance::drivers
   LABELS verification)
+brisance_test(fluid_mixture
+  SOURCES verification/fluid/mixture_test.cpp support/mixture_tube.cpp support/riemann.cpp
+  LINKS brisance::fluid
+  LABELS verification)
+brisance_test(fluid_products SOURCES unit/fluid/products_test.cpp LINKS brisance::fluid RANKS 1 3 LABELS unit)

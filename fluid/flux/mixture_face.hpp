@@ -4,8 +4,8 @@
 // Jumps are kept as (dp, du, dv, dw, dalpha, k1, k2) with k_i = d(alpha_i rho_i) - rho_i dalpha_i: what is left of a
 // partial mass after the volume fraction is taken out. Projected on another face these stay what they are. The jump of
 // a conserved vector does not: where products are absent a face has no rho_1 to project with, and sees pressure in a
-// contact. The densities are means weighted by volume fraction, sum of masses over sum of fractions: a trace of
-// products with a meaningless density weighs nothing, and d(alpha g) = [g] k1 + g dalpha stays exact.
+// contact. The densities are means weighted by volume fraction, sum of masses over sum of fractions:
+// a trace of products with a meaningless density weighs nothing, and d(alpha g) = [g] k1 + g dalpha stays exact.
 #pragma once
 #include "fluid/flux/mixture_cell.hpp"
 #include "fluid/flux/positivity.hpp"
@@ -16,8 +16,7 @@ namespace brisance::fluid {
 template <class V>
 struct MixtureJump {
   V jump[7], third[7];
-  V steep;  ///< > 0: the pressures of the two cells differ by more than 20 %
-  V mixed;  ///< > 0: their volume fractions differ by more than 0.01
+  V steep;  ///< > 0: products are compressed here, and the pressures differ by more than 20 %
 };
 
 /// A face and the low-order state of the cell on its left.
@@ -33,7 +32,7 @@ struct MixtureFace {
   V full;                       ///< 1; 0 where a side is vacuum
   V upwind_share;               ///< mass fraction of products in the cell u comes from
   V trace, rest;                ///< densities of products and ambient gas in the left cell, not negative
-  V cure;                       ///< m/s: least speed of all but the acoustic waves beside a transverse shock; 0: none
+  V cure;                       ///< m/s: least speed of shear and entropy waves beside a transverse shock; 0: none
   V low_flux[6], above_low[6];  ///< positive flux; mean of the analytic fluxes minus it
   /// What it does to alpha of the left and of the right cell, which is no flux, and u dalpha/2 minus that.
   V low_left, low_right, above_left, above_right;
@@ -136,8 +135,7 @@ BRISANCE_INLINE void form_face(MixtureCell<V> const& l, MixtureCell<V> const& r,
   V const k1 = fnma(f.density1, da, dtrace), k2 = fma(f.density2, da, drest);
   V const jump[7] = {dp, du, dv, dw, da, k1, k2};
   BRISANCE_UNROLL for (int n = 0; n < 7; ++n) j.jump[n] = jump[n];
-  j.steep = fnma(V(0.2), min(l.pressure, r.pressure), abs(dp));
-  j.mixed = abs(da) - V(0.01);
+  j.steep = select((fraction > one) & (du < zero), fnma(V(0.2), min(l.pressure, r.pressure), abs(dp)), -one);
   f.full = one;
   f.upwind_share = select(negative(u), r.share, l.share);
   f.trace = max(l.state[5], zero);
@@ -203,7 +201,6 @@ template <int Order, class V>
   for (V* x : {&f.sound, &f.density}) *x = select(vacuum, one, *x);
   for (V& x : j.jump) x = select(vacuum, zero, x);
   j.steep = select(vacuum, zero, j.steep);
-  j.mixed = select(vacuum, zero, j.mixed);
   if constexpr (Order >= 3) {
     for (V& x : j.third) x = select(vacuum, zero, x);
     for (V* x : {&f.room1, &f.room0, &f.room5}) *x = select(vacuum, zero, *x);

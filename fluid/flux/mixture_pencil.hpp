@@ -95,7 +95,7 @@ class MixturePencil {
     MixtureJump<V>& jump = jumps_[2 * reach];
     form_face<Order>(left, right, previous, face, jump, k);
     if (data.marks) [[unlikely]]
-      face.cure = cure_speed(data, c, V(options.shear_dissipation) * max(left.sound, right.sound));
+      face.cure = cure_speed(data, c, min(V(options.shear_dissipation) * max(left.sound, right.sound), k.inv_sigma));
     if (Mask<V> const vacuum = vacuum_left_ | vacuum_right_; any_of(vacuum)) [[unlikely]]
       empty_face<Order>(left, right, vacuum, previous, face, jump, k);
   }
@@ -126,9 +126,9 @@ class MixturePencil {
     } else {
       characteristic_fluxes(f, part, hybrid, k);
     }
-    if (cure) [[unlikely]] {
+    if (cure) [[unlikely]] {  // all that travels with the flow but the surface of the products, which stays as sharp
       V const missing = V(-0.5) * max(f.cure - abs(f.u), V(0.0));
-      for (int n = 1; n < 6; ++n) part[n] = fma(missing, f.strength[n], part[n]);
+      for (int n = 2; n < 6; ++n) part[n] = fma(missing, f.strength[n], part[n]);
     }
     compose(f, part, faces_[here - 1].u, faces_[here + 1], k, d);
   }
@@ -137,24 +137,29 @@ class MixturePencil {
     V const inv_sound = V(1.0) / f.sound, pressure = V(0.5) * (inv_sound * inv_sound);
     V const velocity = V(0.5) * f.density * inv_sound, rest = V(1.0) - f.share;
     MixtureFace<V> const &low = faces_[here - 1], &high = faces_[here + 1];
-    V steepest = V(0.0);
-    V mixed = jumps_[middle].mixed;
-    if (hybrid) BRISANCE_UNROLL for (int z = -2; z <= 2; ++z) {
-        steepest = max(steepest, jumps_[middle + z].steep);
-        mixed = max(mixed, jumps_[middle + z].mixed);
-      }
-    // not across the surface of the products, where the coefficients of one face do not fit the other side
-    Mask<V> const steep = (steepest > V(0.0)) & (mixed <= V(0.0));
     // `value(x)` takes one field out of the primitive jumps or third-order corrections of a face
-    auto field = [&](Wave<Order, V> const& wave, V factor, V own, auto const& value) __attribute__((always_inline)) {
-      auto jump = [&](int z) __attribute__((always_inline)) { return value(jumps_[middle + z].jump); };
-      auto third = [&](int z) __attribute__((always_inline)) {
-        // next to pressure jumps the coefficients of this face serve the whole stencil (theory/fluid.md 2.4, `hybrid`)
-        return select(steep, factor * jump(z), value(jumps_[middle + z].third));
-      };
-      return field_flux<Order>(wave, own, jump, third, AllOrders{});
+    auto field = [&](Wave<Order, V> const& wave, V own, auto const& value) __attribute__((always_inline)) {
+      return field_flux<Order>(
+          wave, own, [&](int z) __attribute__((always_inline)) { return value(jumps_[middle + z].jump); },
+          [&](int z) __attribute__((always_inline)) { return value(jumps_[middle + z].third); }, AllOrders{});
     };
-    auto wave_of = [&](V lambda, V speed, V room_low, V room_high, V & factor) __attribute__((always_inline)) {
+    // Acoustic waves beside shocks in the products take the coefficients of this face for the whole stencil
+    // (theory/fluid.md 2.4, `hybrid`); elsewhere that loses (fluid/README.md).
+    V steepest = V(0.0);
+    if (hybrid) BRISANCE_UNROLL for (int z = -2; z <= 2; ++z) steepest = max(steepest, jumps_[middle + z].steep);
+    Mask<V> const steep = steepest > V(0.0);
+    auto acoustic = [&](Wave<Order, V> const& wave, V lambda, V own, auto const& value) __attribute__((always_inline)) {
+      V const speed = wave.half_speed + wave.half_speed, nu = min(k.sigma * speed, V(1.0));
+      V const factor = flip(V(1.0 / 6) * speed * fnma(nu, nu, V(1.0)), lambda);
+      auto jump = [&](int z) __attribute__((always_inline)) { return value(jumps_[middle + z].jump); };
+      return field_flux<Order>(
+          wave, own, jump,
+          [&](int z) __attribute__((always_inline)) {
+            return select(steep, factor * jump(z), value(jumps_[middle + z].third));
+          },
+          AllOrders{});
+    };
+    auto wave_of = [&](V lambda, V speed, V room_low, V room_high) __attribute__((always_inline)) {
       Wave<Order, V> wave;
       V const nu = min(k.sigma * speed, V(1.0));
       wave.leftward = negative(lambda);
@@ -163,35 +168,31 @@ class MixturePencil {
       wave.second = fnma(wave.half_speed, nu, wave.half_speed);
       wave.room = select(wave.leftward, room_high, room_low);
       set_ratios(wave, nu);
-      factor = flip(V(1.0 / 6) * speed * fnma(nu, nu, V(1.0)), lambda);
       return wave;
     };
-    V factor;
-    auto const left = wave_of(f.u - f.sound, f.speed1, low.room1, high.room1, factor);
-    part[0] = field(
-        left, factor,
+    auto const left = wave_of(f.u - f.sound, f.speed1, low.room1, high.room1);
+    part[0] = acoustic(
+        left, f.u - f.sound,
         f.strength[0], [&](V const* x) __attribute__((always_inline)) { return fms(pressure, x[0], velocity * x[1]); });
-    auto const right = wave_of(f.u + f.sound, f.speed5, low.room5, high.room5, factor);
-    part[6] = field(
-        right, factor,
+    auto const right = wave_of(f.u + f.sound, f.speed5, low.room5, high.room5);
+    part[6] = acoustic(
+        right, f.u + f.sound,
         f.strength[6], [&](V const* x) __attribute__((always_inline)) { return fma(pressure, x[0], velocity * x[1]); });
-    auto const slow = wave_of(f.u, abs(f.u), low.room0, high.room0, factor);
+    auto const slow = wave_of(f.u, abs(f.u), low.room0, high.room0);
     V const twice = pressure + pressure, share = twice * f.share, other = twice * rest;
     part[1] = field(
-        slow, factor, f.strength[1], [](V const* x) __attribute__((always_inline)) { return x[4]; });
+        slow, f.strength[1], [](V const* x) __attribute__((always_inline)) { return x[4]; });
     V const room = select(slow.leftward, high.room_fraction, low.room_fraction);
     V const up = select(slow.leftward, jumps_[middle + 1].jump[4], jumps_[middle - 1].jump[4]);
     part[1] = monotone_fraction(f, part[1], (room + room) * up);
     part[2] = field(
-        slow, factor,
-        f.strength[2], [&](V const* x) __attribute__((always_inline)) { return fnma(share, x[0], x[5]); });
+        slow, f.strength[2], [&](V const* x) __attribute__((always_inline)) { return fnma(share, x[0], x[5]); });
     part[3] = field(
-        slow, factor,
-        f.strength[3], [&](V const* x) __attribute__((always_inline)) { return fnma(other, x[0], x[6]); });
+        slow, f.strength[3], [&](V const* x) __attribute__((always_inline)) { return fnma(other, x[0], x[6]); });
     part[4] = field(
-        slow, factor, f.strength[4], [&](V const* x) __attribute__((always_inline)) { return f.density * x[2]; });
+        slow, f.strength[4], [&](V const* x) __attribute__((always_inline)) { return f.density * x[2]; });
     part[5] = field(
-        slow, factor, f.strength[5], [&](V const* x) __attribute__((always_inline)) { return f.density * x[3]; });
+        slow, f.strength[5], [&](V const* x) __attribute__((always_inline)) { return f.density * x[3]; });
   }
 
   /// Both cells of the face take twice the difference alone: if that leaves them admissible, so does the whole step.

@@ -21,7 +21,8 @@ struct MixtureReport : SweepReport {
 };
 
 /// In place: cell means at t -> after the sweep along `direction`. Ghosts of that direction must be filled. Density,
-/// momentum, energy and the mass of products are conserved to rounding; the volume fraction is carried along.
+/// momentum, energy and the mass of products are conserved to rounding; the volume fraction is carried along. `hybrid`
+/// acts beside shocks in products only (fluid/README.md).
 /// Units: sigma = dt/h in s/m.  Errors: raises health bits, never throws.  Source: theory/fluid.md 1.4, 2-4.
 MixtureReport sweep_mixture(int order, MixtureBox const& box, int direction, Real sigma, Mixture const& mixture,
                             SweepOptions const& options = {});
