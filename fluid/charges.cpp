@@ -202,7 +202,17 @@ Placed place_products(Flow& flow, FlowConfig const& config, std::size_t number, 
   Balloon ball = grown_balloon(flow, jwl.density, mass, Form{charge.shape, charge.centre, Vec3{}, 0, 0, 2}, volume);
   require(ball.fluid_volume() > 0, charge.at,
           name + ": no fluid at its place, so its energy has nowhere to go. Move `centre` into the fluid.");
-  while (!ball.tiny() && ball.fluid_volume() < wanted) ball.set_radius(1.01 * ball.form().radius);
+  Grid const& grid = flow.grid();
+  Real diagonal = 0;
+  for (int d = 0; d < grid.dimension; ++d)
+    diagonal += square(grid.spacing[d] * grid.cells[static_cast<std::size_t>(d)]);
+  diagonal = std::sqrt(diagonal);
+  while (!ball.tiny() && ball.fluid_volume() < wanted && ball.form().radius < diagonal)
+    ball.set_radius(1.01 * ball.form().radius);
+  require(
+      ball.tiny() || ball.fluid_volume() >= wanted, charge.at,
+      fmt::format("{}: {:.4g} kg of explosive fill more than the whole domain; it must be less, or the domain larger.",
+                  name, mass));
   ball.fit(wanted);
   Real const density = mass / ball.fluid_volume(), energy = jwl.energy / jwl.density * density;
   State const alone{density, 0, 0, 0, energy};

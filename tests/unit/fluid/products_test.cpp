@@ -64,6 +64,13 @@ TEST(JwlCharge, HoldsItsMassOrTheEnergyOfTnt) {
       }
 }
 
+TEST(JwlCharge, LargerThanTheDomainIsRefused) {
+  FlowConfig config = air_with_products(1, 24, 1);
+  config.charge = {jwl_charge(2000, "mass")};
+  auto const flow = testing::make_flow(config, testing::comm());
+  EXPECT_THROW(fill(*flow, config), Error);
+}
+
 TEST(JwlCharge, LeavesAirWithoutProductsAlone) {
   FlowConfig config = air_with_products(2, 24, 1);
   ChargeConfig balloon;
