@@ -260,8 +260,9 @@ namespace {
 /// What a scene with products asks of the rest of [fluid].
 void check_products(FlowConfig const& config) {
   Location const& at = config.products->at;
-  demand(config.gas.law != "jwl", at,
-         "fluid.products: the gas beside the products must be ideal or stiffened, but fluid.gas.law is jwl.");
+  demand(config.gas.law == "ideal", at,
+         "fluid.products: the gas beside the products must be ideal, but fluid.gas.law is " + config.gas.law +
+             "; products in water lose their internal energy so far.");
   demand(config.ambient.density > 0, at, "fluid.products: the ambient state is vacuum; give the gas there a density.");
   for (int d = 0; d < dimension(config); ++d)
     for (int side = 0; side < 2; ++side)
