@@ -162,6 +162,9 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
       scene_error(scene.fluid->euler->at, std::string("fluid.euler.splitting = \"merged\" has no whole steps, which ") +
                                               other + " acts between: take \"pair\" with it");
   }
+  if (coupled && scene.fluid->products)
+    scene_error(scene.fluid->products->at,
+                "fluid.products: cut cells do not carry products yet; use charges of model \"balloon\" beside solids.");
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
     w.surface = std::make_unique<solid::Surface>(*w.mesh);

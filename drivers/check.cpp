@@ -39,7 +39,10 @@ FluidStep initial_acoustic_step(fluid::FlowConfig const& flow, fluid::Grid const
   for (std::size_t r = 0; r < flow.region.size(); ++r)
     consider("fluid.region." + std::to_string(r), flow.region[r].density, flow.region[r].pressure,
              flow.region[r].velocity);
-  for (fluid::ChargeReport const& charge : charges) consider(charge.name, charge.density, charge.pressure, {});
+  for (fluid::ChargeReport const& charge : charges)
+    for (int d = 0; d < grid.dimension; ++d)
+      if (Real const dt = flow.euler->cfl * grid.spacing[d] / charge.sound_speed; dt < best.dt)
+        best = {dt, charge.name};
   return best;
 }
 
@@ -146,7 +149,7 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
       plain *= n;
       stored *= d == 0 ? n + 16 : d < static_cast<std::size_t>(grid->dimension) ? n + 2 * ghost : 1;
     }
-    Real need = 80 * stored;  // five doubles, and a copy for rejected pairs
+    Real need = (scene.fluid->products ? 112 : 80) * stored;  // five or seven doubles, and a copy for rejected pairs
     if (scene.fluid->viscosity && scene.fluid->viscosity->time == "strang") need += 32 * plain;
     if (!world->cut_cells_of_block.empty() && world->cut_cells_of_block[static_cast<std::size_t>(b)] > 0)
       need += (40 + 48.0 * grid->dimension) * plain + 4000.0 * world->cut_cells_of_block[static_cast<std::size_t>(b)];

@@ -25,12 +25,14 @@ BoundaryLedger::Totals BoundaryLedger::totals(parallel::Comm& comm) const {
   for (std::size_t q = 0; q < 5; ++q)
     for (auto const& side : through_) sums[30 + q].add(side[q]);
   sums.push_back(impulse_);
+  sums.push_back(products_);
   comm.sum(std::span(sums));
   Totals result;
   for (std::size_t s = 0; s < 6; ++s)
     for (std::size_t q = 0; q < 5; ++q) result.through[s][q] = sums[5 * s + q].value();
   for (std::size_t q = 0; q < 5; ++q) result.gained[q] = sums[30 + q].value();
   result.impulse = sums[35].value();
+  result.products = sums[36].value();
   return result;
 }
 

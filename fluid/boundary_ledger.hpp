@@ -14,12 +14,18 @@ class BoundaryLedger {
   /// Adds what `flux` (along +direction, per area and time) carried during `dt` through `area` of a side of the domain.
   void add(int direction, int side, Real dt, Real area, State const& flux);
 
+  /// Adds the products that `flux` carried through a side.
+  void add_products(int side, Real dt, Real area, Real flux) {
+    products_.add((side == 0 ? dt * area : -(dt * area)) * flux);
+  }
+
   /// Over the whole run, on all ranks.
   struct Totals {
     std::array<State, 6>
-        through{};     ///< gained by the domain through x_low, x_high, y_low, ...: kg, kg m/s, J (2D: per metre)
-    State gained{};    ///< over all sides
-    Real impulse = 0;  ///< sum of the sizes of the impulses normal to the sides: kg m/s
+        through{};      ///< gained by the domain through x_low, x_high, y_low, ...: kg, kg m/s, J (2D: per metre)
+    State gained{};     ///< over all sides
+    Real products = 0;  ///< gained mass of detonation products: kg
+    Real impulse = 0;   ///< sum of the sizes of the impulses normal to the sides: kg m/s
   };
   /// Collective.
   Totals totals(parallel::Comm& comm) const;
@@ -34,7 +40,7 @@ class BoundaryLedger {
 
  private:
   std::array<std::array<parallel::ExactSum, 5>, 6> through_;
-  parallel::ExactSum impulse_;
+  parallel::ExactSum impulse_, products_;
   Crossed recent_;
 };
 

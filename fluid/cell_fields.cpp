@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "fluid/cell_state.hpp"
 
 namespace brisance::fluid {
 namespace {
@@ -29,7 +30,11 @@ void for_cells(Flow const& flow, Visit&& visit) {
   }
 }
 
-Vec3 velocity(Gas const& gas, State const& u) { return gas.vacuum(u) ? Vec3{} : Vec3{u[1], u[2], u[3]} / u[0]; }
+/// Of products the law of the gas knows no vacuum: their density tells.
+Vec3 velocity(Flow const& flow, State const& u) {
+  bool const vacuum = flow.mixture() ? !(u[0] > flow.gas().vacuum_density) : flow.gas().vacuum(u);
+  return vacuum ? Vec3{} : Vec3{u[1], u[2], u[3]} / u[0];
+}
 
 /// Collective. Calls visit(n, low, high, distance) for every owned cell, the n-th, that has a fluid neighbour along
 /// `direction`: the difference of the two states over the distance is its slope.
@@ -86,7 +91,7 @@ std::vector<double> vorticity(Flow& flow, FluidVolume const& volume, std::size_t
   std::vector<double> curl(columns * cells_of(flow), 0);
   for (int d = 0; d < flow.grid().dimension; ++d)
     for_slopes(flow, volume, d, [&](std::size_t cell, State const& low, State const& high, Real distance) {
-      Vec3 const slope = (velocity(flow.gas(), high) - velocity(flow.gas(), low)) / distance;
+      Vec3 const slope = (velocity(flow, high) - velocity(flow, low)) / distance;
       int const next = (d + 1) % 3, before = (d + 2) % 3;
       auto const component = [&](int a) -> double* {
         if (columns == 1) return a == 2 ? &curl[cell] : nullptr;
@@ -101,9 +106,19 @@ std::vector<double> vorticity(Flow& flow, FluidVolume const& volume, std::size_t
 }  // namespace
 
 std::vector<std::string> const& cell_field_names() {
-  static std::vector<std::string> const names{"density",          "pressure",    "overpressure", "velocity",
-                                              "energy",           "temperature", "sound_speed",  "mach",
-                                              "density_gradient", "schlieren",   "vorticity"};
+  static std::vector<std::string> const names{"density",
+                                              "pressure",
+                                              "overpressure",
+                                              "velocity",
+                                              "energy",
+                                              "temperature",
+                                              "sound_speed",
+                                              "mach",
+                                              "density_gradient",
+                                              "schlieren",
+                                              "vorticity",
+                                              "products",
+                                              "volume_fraction_products"};
   return names;
 }
 
@@ -112,7 +127,6 @@ int cell_field_columns(std::string const& name, int dimension) {
 }
 
 CellField cell_field(Flow& flow, FlowConfig const& config, FluidVolume const& volume, std::string const& name) {
-  Gas const& gas = flow.gas();
   CellField field;
   field.columns = cell_field_columns(name, flow.grid().dimension);
   if (name == "density_gradient") return {field.columns, density_gradient(flow, volume)};
@@ -120,28 +134,35 @@ CellField cell_field(Flow& flow, FlowConfig const& config, FluidVolume const& vo
   if (name == "vorticity") return {field.columns, vorticity(flow, volume, static_cast<std::size_t>(field.columns))};
   field.data.reserve(cells_of(flow) * static_cast<std::size_t>(field.columns));
   auto const scalar = [&](auto const& value) {
-    for_cells(flow,
-              [&](Block const& block, Index i, Index j, Index k) { field.data.push_back(value(block.load(i, j, k))); });
+    for_cells(flow, [&](Block const& block, Index i, Index j, Index k) {
+      field.data.push_back(value(CellState(flow, block, i, j, k)));
+    });
   };
+  using Cell = CellState;
   if (name == "density") {
-    scalar([](State const& u) { return u[0]; });
+    scalar([](Cell const& cell) { return cell.density(); });
   } else if (name == "pressure") {
-    scalar([&](State const& u) { return gas.pressure(u); });
+    scalar([](Cell const& cell) { return cell.pressure(); });
   } else if (name == "overpressure") {
-    scalar([&](State const& u) { return gas.pressure(u) - config.ambient.pressure; });
+    scalar([&](Cell const& cell) { return cell.pressure() - config.ambient.pressure; });
   } else if (name == "energy") {
-    scalar([](State const& u) { return u[4]; });
+    scalar([](Cell const& cell) { return cell.energy(); });
   } else if (name == "temperature") {
-    scalar([&](State const& u) { return gas.vacuum(u) ? 0 : gas.temperature(u[0], gas.pressure(u)); });
+    scalar(
+        [&](Cell const& cell) { return cell.vacuum() ? 0 : flow.gas().temperature(cell.density(), cell.pressure()); });
   } else if (name == "sound_speed") {
-    scalar([&](State const& u) { return gas.sound_speed(u); });
+    scalar([](Cell const& cell) { return cell.sound_speed(); });
   } else if (name == "mach") {
-    scalar([&](State const& u) { return gas.vacuum(u) ? 0 : norm(velocity(gas, u)) / gas.sound_speed(u); });
+    scalar([](Cell const& cell) { return cell.vacuum() ? 0 : norm(cell.velocity()) / cell.sound_speed(); });
   } else if (name == "velocity") {
     for_cells(flow, [&](Block const& block, Index i, Index j, Index k) {
-      Vec3 const v = velocity(gas, block.load(i, j, k));
+      Vec3 const v = Cell(flow, block, i, j, k).velocity();
       field.data.insert(field.data.end(), {v.x, v.y, v.z});
     });
+  } else if (name == "products") {
+    scalar([](Cell const& cell) { return cell.products(); });
+  } else if (name == "volume_fraction_products") {
+    scalar([](Cell const& cell) { return cell.products_fraction(); });
   } else {
     throw Error(Failure::scene, "output.fields: there is no fluid field `" + name + "`. Did you mean `" +
                                     nearest(name, cell_field_names()) + "`?");
@@ -153,8 +174,10 @@ void check_cell_fields(std::vector<std::string> const& names, FlowConfig const& 
                        Location const& at) {
   for (std::string const& name : names) {
     require(std::count(names.begin(), names.end(), name) == 1, at, "output.fields lists \"" + name + "\" twice");
-    require(name != "temperature" || config.gas.law == "ideal", at,
+    require(name != "temperature" || (config.gas.law == "ideal" && !config.products), at,
             "output.fields: only an ideal gas has a temperature: leave it out");
+    require((name != "products" && name != "volume_fraction_products") || config.products, at,
+            "output.fields: \"" + name + "\" needs detonation products: add products = { law = \"jwl\" } to [fluid]");
     require(name != "vorticity" || dimension > 1, at, "output.fields: there is no vorticity in one dimension");
   }
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 #include "core/base/errors.hpp"
 #include "fluid/shapes.hpp"
@@ -11,7 +12,6 @@
 namespace brisance::fluid {
 namespace {
 
-constexpr Real tnt_energy = 4.184e6;  // J/kg, by convention
 constexpr int samples_of_charge = 8;  // per direction: the rim of small charges matters
 
 /// Calls visit(i, j, k, global cell) for the cells of a block between `low` and `high`.
@@ -83,23 +83,46 @@ class Balloon {
     measure();
   }
 
+  /// Scales the volume it fills in the cells of the rim, so that the whole is `wanted` to rounding. Expects: at least
+  /// that volume now.
+  void fit(Real wanted) {
+    Real const whole = sum_of([](Real share) { return share == 1 ? 1 : 0; });
+    if (fluid_volume_ > whole) rim_ = (wanted - whole) / (fluid_volume_ - whole);
+    measure();
+  }
+
   void store(State const& inside) {
     for (Block& block : flow_.blocks())
       visit(block, [&](Index i, Index j, Index k, CellIndex, Real share) {
         block.store(i, j, k, mixed(block.load(i, j, k), inside, share));
       });
   }
+  /// Products displace what was there.
+  void store(MixtureState const& inside) {
+    for (Block& block : flow_.blocks())
+      visit(block, [&](Index i, Index j, Index k, CellIndex, Real share) {
+        MixtureState u = block.load_mixture(i, j, k);
+        for (std::size_t q = 0; q < 7; ++q) u[q] = share == 1 ? inside[q] : (1 - share) * u[q] + share * inside[q];
+        block.store_mixture(i, j, k, u);
+      });
+  }
+  bool tiny() const { return whole_share_ > 0; }
 
  private:
   void measure() {
+    fluid_volume_ = sum_of([](Real share) { return share; });
+  }
+  /// Fluid volume of the cells, weighted by a function of its share of each.
+  template <class Weight>
+  Real sum_of(Weight const& weight) {
     parallel::ExactSum sum;
     for (Block& block : flow_.blocks()) {
       Real part = 0;
-      visit(block, [&](Index, Index, Index, CellIndex c, Real share) { part += share * volume(c); });
+      visit(block, [&](Index, Index, Index, CellIndex c, Real share) { part += weight(share) * volume(c); });
       sum.add(part);
     }
     flow_.comm().sum(std::span(&sum, 1));
-    fluid_volume_ = sum.value();
+    return sum.value();
   }
   Real volume(CellIndex c) const {
     return volume_.cuts(flow_.grid().block_of(c)) ? volume_(c) : flow_.grid().cell_volume();
@@ -109,7 +132,7 @@ class Balloon {
     Vec3 const r = whole_share_ > 0 ? Vec3{} : form_.reach();
     for_cells_in(flow_.grid(), block, form_.centre - r, form_.centre + r, [&](Index i, Index j, Index k, CellIndex c) {
       Real const share = whole_share_ > 0 ? whole_share_ : form_.covered(flow_.grid(), c);
-      if (share > 0 && volume(c) > 0) act(i, j, k, c, share);
+      if (share > 0 && volume(c) > 0) act(i, j, k, c, share < 1 ? rim_ * share : share);
     });
   }
 
@@ -118,24 +141,25 @@ class Balloon {
   Form form_;
   Real fluid_volume_ = 0;
   Real whole_share_ = 0;  // of the one cell that holds a tiny charge, else 0
+  Real rim_ = 1;          // of what a cell that is filled in part would hold
 };
 
 /// A charge ready to be stored.
 struct Placed {
   Balloon balloon;
-  State inside;
+  std::variant<State, MixtureState> inside;
   ChargeReport report;
 };
 
 /// How much of it there is, and where: mass and energy as stated, whatever the shape that the grid, walls and sides of
 /// the domain leave to the balloon.
-Balloon grown_balloon(Flow& flow, ChargeConfig const& charge, Real mass, Form form, FluidVolume const& volume) {
+Balloon grown_balloon(Flow& flow, std::optional<Real> density, Real mass, Form form, FluidVolume const& volume) {
   int const n = flow.grid().dimension;
-  Real const wanted = charge.density ? mass / *charge.density : 0;
-  if (charge.density) form.radius = ball_radius(n, wanted);
+  Real const wanted = density ? mass / *density : 0;
+  if (density) form.radius = ball_radius(n, wanted);
   Balloon balloon(flow, volume, std::move(form));
   // On the ground or in a corner only a part of the ball lies in the fluid: grow it until that part has the volume.
-  for (int pass = 0; charge.density && balloon.fluid_volume() > 0 && pass < 4; ++pass)
+  for (int pass = 0; density && balloon.fluid_volume() > 0 && pass < 4; ++pass)
     balloon.set_radius(balloon.form().radius * ball_radius(n, wanted) / ball_radius(n, balloon.fluid_volume()));
   return balloon;
 }
@@ -157,8 +181,59 @@ Real sampled_volume(Grid const& grid, Form const& form) {
   return sum;
 }
 
+void add_extent(ChargeReport& report, Grid const& grid, Form const& form) {
+  Vec3 const reach = form.reach();
+  Real half = reach.x;
+  report.cells_across = 2 * reach.x / grid.spacing.x;
+  for (int d = 1; d < grid.dimension; ++d) {
+    report.cells_across = min(report.cells_across, 2 * reach[d] / grid.spacing[d]);
+    half = min(half, reach[d]);
+  }
+  report.radius = form.shape == "box" ? half : form.radius;
+}
+
+/// A ball of detonation products as dense as the explosive: density and energy per mass are exact in every cell, which
+/// the stiff curve asks for, mass and energy in their sum.
+Placed place_products(Flow& flow, FlowConfig const& config, std::size_t number, FluidVolume const& volume) {
+  ChargeConfig const& charge = config.charge[number];
+  JwlConfig const& jwl = config.products->jwl;
+  std::string const name = "fluid.charge[" + std::to_string(number) + "]";
+  Real const mass = products_mass(charge, jwl), wanted = mass / jwl.density;
+  Balloon ball = grown_balloon(flow, jwl.density, mass, Form{charge.shape, charge.centre, Vec3{}, 0, 0, 2}, volume);
+  require(ball.fluid_volume() > 0, charge.at,
+          name + ": no fluid at its place, so its energy has nowhere to go. Move `centre` into the fluid.");
+  Grid const& grid = flow.grid();
+  Real diagonal = 0;
+  for (int d = 0; d < grid.dimension; ++d)
+    diagonal += square(grid.spacing[d] * grid.cells[static_cast<std::size_t>(d)]);
+  diagonal = std::sqrt(diagonal);
+  while (!ball.tiny() && ball.fluid_volume() < wanted && ball.form().radius < diagonal)
+    ball.set_radius(1.01 * ball.form().radius);
+  require(
+      ball.tiny() || ball.fluid_volume() >= wanted, charge.at,
+      fmt::format("{}: {:.4g} kg of explosive fill more than the whole domain; it must be less, or the domain larger.",
+                  name, mass));
+  ball.fit(wanted);
+  Real const density = mass / ball.fluid_volume(), energy = jwl.energy / jwl.density * density;
+  State const alone{density, 0, 0, 0, energy};
+  Gas const& products = flow.mixture()->products;
+  ChargeReport report{name,
+                      mass,
+                      jwl.energy / jwl.density * mass,
+                      jwl.energy / jwl.density * mass / tnt_energy,
+                      charge.shape,
+                      0,
+                      0,
+                      density,
+                      products.pressure(alone),
+                      products.sound_speed(alone)};
+  add_extent(report, flow.grid(), ball.form());
+  return {std::move(ball), MixtureState{density, 0, 0, 0, energy, density, 1}, std::move(report)};
+}
+
 Placed place(Flow& flow, FlowConfig const& config, std::size_t number, FluidVolume const& volume) {
   ChargeConfig const& charge = config.charge[number];
+  if (charge.model == "jwl") return place_products(flow, config, number, volume);
   std::string const name = "fluid.charge[" + std::to_string(number) + "]";
   Grid const& grid = flow.grid();
   Gas const& gas = flow.gas();
@@ -174,7 +249,7 @@ Placed place(Flow& flow, FlowConfig const& config, std::size_t number, FluidVolu
   Real const specific = tnt_energy * charge.tnt_factor.value_or(1);
   Real mass = charge.mass ? *charge.mass : charge.energy.value_or(0) / specific;
   Real energy = charge.energy ? *charge.energy : specific * mass;
-  Balloon balloon = by_amount ? grown_balloon(flow, charge, mass, form, volume) : Balloon(flow, volume, form);
+  Balloon balloon = by_amount ? grown_balloon(flow, charge.density, mass, form, volume) : Balloon(flow, volume, form);
   Real const filled = balloon.fluid_volume();
   require(filled > 0, charge.at,
           name + ": no fluid at its place, so its energy has nowhere to go. Move `centre` into the fluid.");
@@ -202,15 +277,9 @@ Placed place(Flow& flow, FlowConfig const& config, std::size_t number, FluidVolu
       fmt::format("{}: {:.4g} kg/m3 with {:.4g} J/kg lie below the reference curve of the gas law: more energy, or a "
                   "larger charge",
                   name, density, energy / mass));
-  Vec3 const reach = balloon.form().reach();
-  Real across = 2 * reach.x / grid.spacing.x, half = reach.x;
-  for (int d = 1; d < grid.dimension; ++d) {
-    across = min(across, 2 * reach[d] / grid.spacing[d]);
-    half = min(half, reach[d]);
-  }
-  Real const radius = charge.shape == "box" ? half : balloon.form().radius;
-  ChargeReport report{name,   mass,   energy,  energy / tnt_energy, charge.shape,
-                      radius, across, density, gas.pressure(inside)};
+  ChargeReport report{name, mass, energy,  energy / tnt_energy,  charge.shape,
+                      0,    0,    density, gas.pressure(inside), gas.sound_speed(inside)};
+  add_extent(report, grid, balloon.form());
   return {std::move(balloon), inside, std::move(report)};
 }
 
@@ -232,7 +301,7 @@ std::vector<ChargeReport> measure_charges(Flow& flow, FlowConfig const& config, 
 void add_charges(Flow& flow, FlowConfig const& config, FluidVolume const& volume) {
   for (std::size_t c = 0; c < config.charge.size(); ++c) {
     Placed placed = place(flow, config, c, volume);
-    placed.balloon.store(placed.inside);
+    std::visit([&](auto const& inside) { placed.balloon.store(inside); }, placed.inside);
   }
 }
 

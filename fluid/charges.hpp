@@ -1,4 +1,5 @@
-// Explosive charges as balloons of hot gas at rest, exact in mass and energy over the fluid volumes they fill.
+// Explosive charges at rest, balloons of hot gas or detonation products, exact in mass and energy over the fluid
+// volumes they fill.
 #pragma once
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct ChargeReport {
   Real radius = 0;        ///< m: of the ball or cylinder; half the smallest length of a box
   Real cells_across = 0;  ///< the smallest extent in cells
   Real density = 0, pressure = 0;
+  Real sound_speed = 0;  ///< m/s
 };
 
 /// Below this many cells across (a radius of 4) the first shock is smeared over much of the charge.

@@ -36,13 +36,13 @@ void Euler::join(Plan& plan) {
     report_ = {};
   };
   keep.write = [this](parallel::ArchiveWriter& file) {
-    file.rows("fluid/cells", flow_.grid().cell_count(), 5, block_rows(flow_), pack_cells(flow_));
+    file.rows("fluid/cells", flow_.grid().cell_count(), flow_.components(), block_rows(flow_), pack_cells(flow_));
     std::int64_t faces = fallback_faces_;
     flow_.comm().sum(std::span(&faces, 1));
     file.attribute("fallback_faces", faces);
   };
   keep.read = [this](parallel::ArchiveReader& file) {
-    unpack_cells(flow_, file.rows("fluid/cells", 5, block_rows(flow_)));
+    unpack_cells(flow_, file.rows("fluid/cells", flow_.components(), block_rows(flow_)));
     fallback_faces_ = flow_.comm().rank() == 0 ? file.integer("fallback_faces") : 0;
   };
   keep.digest = [this](parallel::Digest& digest) { add_cells(digest, flow_, volume_); };

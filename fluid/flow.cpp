@@ -6,10 +6,11 @@
 namespace brisance::fluid {
 namespace {
 
-std::vector<Block> owned_blocks(Grid const& grid, std::vector<int> const& owner, int rank, Index depth) {
+std::vector<Block> owned_blocks(Grid const& grid, std::vector<int> const& owner, int rank, Index depth,
+                                int components) {
   std::vector<Block> blocks;
   for (Index b = 0; b < grid.block_count(); ++b)
-    if (owner[static_cast<std::size_t>(b)] == rank) blocks.emplace_back(grid, b, depth);
+    if (owner[static_cast<std::size_t>(b)] == rank) blocks.emplace_back(grid, b, depth, components);
   return blocks;
 }
 
@@ -18,15 +19,16 @@ std::vector<Block> owned_blocks(Grid const& grid, std::vector<int> const& owner,
 Flow::Flow(FlowConfig const& config, Grid grid, std::vector<int> owner, parallel::Comm& comm)
     : grid_(std::move(grid)),
       gas_(make_gas(config)),
+      mixture_(make_mixture(config)),
       order_(config.order()),
       owner_(std::move(owner)),
       comm_(comm),
-      blocks_(owned_blocks(grid_, owner_, comm.rank(), ghost_depth(order_))),
+      blocks_(owned_blocks(grid_, owner_, comm.rank(), ghost_depth(order_), components())),
       boundaries_(config, gas_, grid_),
       ghosts_(grid_, owner_, blocks_, boundaries_, comm),
       options_(config.options()),
       splitting_(config.splitting()),
-      sleep_(config.sleep),
+      sleep_(config.sleep && !mixture_),
       saved_(blocks_.size()),
       uniform_(blocks_.size()),
       surveys_(blocks_.size()) {
@@ -53,7 +55,7 @@ void Flow::changed(std::size_t position) {
 
 Survey const& Flow::survey(std::size_t position) const {
   std::optional<Survey>& seen = surveys_[position];
-  if (!seen) seen = fluid::survey(blocks_[position], gas_);
+  if (!seen) seen = mixture_ ? survey_mixture(blocks_[position], *mixture_) : fluid::survey(blocks_[position], gas_);
   return *seen;
 }
 
@@ -87,7 +89,7 @@ void Flow::begin_pair() {
   if (!sensor_) return;
   look_at_blocks();
   sensor_->update(
-      blocks_, gas_, [this](Index block) { return sweeper_ && sweeper_->handles(block); },
+      blocks_, gas_, mixture(), [this](Index block) { return sweeper_ && sweeper_->handles(block); },
       [this](Block const& block, Index i, Index j, Index k) { return sweeper_->is_fluid(block, i, j, k); },
       [this](std::size_t position) { return uniform_.state(position) != nullptr; });
 }
@@ -101,7 +103,7 @@ Block& Flow::spare(std::size_t position) {
   std::optional<Block>& spare = saved_[position].spare;
   if (!spare) {
     Block const& block = blocks_[position];
-    spare.emplace(grid_, block.id(), ghost_depth(order_));
+    spare.emplace(grid_, block.id(), ghost_depth(order_), components());
     spare->fill(ambient_);
   }
   return *spare;

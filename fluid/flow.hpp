@@ -9,7 +9,7 @@
 #include "fluid/boundary/boundaries.hpp"
 #include "fluid/boundary_ledger.hpp"
 #include "fluid/flow_config.hpp"
-#include "fluid/flux/sweep.hpp"
+#include "fluid/flux/mixture_sweep.hpp"
 #include "fluid/ghosts.hpp"
 #include "fluid/grid/block.hpp"
 #include "fluid/shock_sensor.hpp"
@@ -43,6 +43,9 @@ class Flow {
 
   Grid const& grid() const { return grid_; }
   Gas const& gas() const { return gas_; }
+  /// Null without [fluid.products].
+  Mixture const* mixture() const { return mixture_ ? &*mixture_ : nullptr; }
+  int components() const { return mixture_ ? 7 : 5; }
   int order() const { return order_; }
   parallel::Comm& comm() const { return comm_; }
   /// Owned blocks, ascending ids.
@@ -102,6 +105,8 @@ class Flow {
 
  private:
   void sweep_block(std::size_t position, int direction, Real dt, SweepReport& total);
+  void sweep_products(Block& block, int direction, Real dt, SweepReport& total);
+  void take(SweepReport const& report, Block const& block, int direction, Real dt, SweepReport& total);
   bool sleeps(std::size_t position, int direction, Real dt, SweepReport& total);
   void look_at_blocks();
   void changed(std::size_t position);
@@ -111,6 +116,7 @@ class Flow {
 
   Grid grid_;
   Gas gas_;
+  std::optional<Mixture> mixture_;
   int order_;
   State ambient_{};
   std::vector<int> owner_;
@@ -137,8 +143,9 @@ class Flow {
   mutable std::vector<std::optional<Survey>> surveys_;  ///< a cache
 };
 
-/// The cells of a block as a box for sweep_box.
+/// The cells of a block as a box for sweep_box, and of one that has products for sweep_mixture.
 CellBox box_of(Block& block, int dimension);
+MixtureBox mixture_box_of(Block& block);
 
 /// Adds a block's report to a sum; `first` turns its local cell into a global one.
 void merge(SweepReport& total, SweepReport const& report, CellIndex first, Grid const& grid);

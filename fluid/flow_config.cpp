@@ -4,6 +4,7 @@
 
 #include "core/base/errors.hpp"
 #include "fluid/boundary/boundary_config.hpp"
+#include "fluid/boundary/products.hpp"
 #include "fluid/flux/sweep.hpp"
 
 namespace brisance::fluid {
@@ -32,8 +33,27 @@ void check_region(RegionConfig const& region, std::string const& name) {
             ": a half_space needs `point` and a `normal` that is not zero (it fills the side the normal points to).");
 }
 
-void check_charge(ChargeConfig const& charge, int dimension, std::string const& name) {
+void check_jwl_charge(ChargeConfig const& charge, std::string const& name, FlowConfig const& config) {
   auto const check = [&](bool ok, char const* message) { demand(ok, charge.at, name + ": " + message); };
+  check(config.products.has_value(),
+        "model = \"jwl\" needs the equation of state of its products: add products = { law = \"jwl\" } to [fluid].");
+  check(
+      charge.shape == "ball" && !charge.radius && !charge.size && !charge.length && !charge.density && !charge.pressure,
+      "a charge of model `jwl` is a ball of the density and energy of fluid.products, whose radius follows from how "
+      "much it is: leave its extent and gas state out.");
+  if (charge.tnt == "mass")
+    check(charge.mass && !charge.energy && !charge.tnt_factor,
+          "tnt = \"mass\" takes the `mass` of explosive and nothing else; for an energy in terms of TNT set "
+          "tnt = \"energy\".");
+  else
+    check(charge.mass.has_value() != charge.energy.has_value() && !(charge.energy && charge.tnt_factor),
+          "tnt = \"energy\" takes either `energy`, or the `mass` of TNT that holds it, which tnt_factor scales.");
+}
+
+void check_charge(ChargeConfig const& charge, int dimension, std::string const& name, FlowConfig const& config) {
+  if (charge.model == "jwl") return check_jwl_charge(charge, name, config);
+  auto const check = [&](bool ok, char const* message) { demand(ok, charge.at, name + ": " + message); };
+  check(charge.tnt == "mass", "`tnt` chooses what a charge of model `jwl` keeps; a balloon has `mass` and `energy`.");
   bool const ball = charge.shape == "ball", box = charge.shape == "box", cylinder = charge.shape == "cylinder";
   check(!cylinder || dimension == 3,
         "a cylinder needs three dimensions; in 2D, a ball is one along z, a box one across.");
@@ -92,6 +112,13 @@ void RegionConfig::keys(Keys<RegionConfig>& k) {
 }
 
 void ChargeConfig::keys(Keys<ChargeConfig>& k) {
+  k("model", &ChargeConfig::model, "",
+    "balloon: hot gas of the surroundings' law; jwl: detonation products as fluid.products describes them")
+      .one_of({"balloon", "jwl"});
+  k("tnt", &ChargeConfig::tnt, "",
+    "jwl: keep the stated mass of explosive, or the stated energy: `energy`, or `mass` of TNT x 4.184 MJ/kg x "
+    "tnt_factor")
+      .one_of({"mass", "energy"});
   k("shape", &ChargeConfig::shape, "", "form of the balloon; cylinder: in 3D").one_of({"ball", "box", "cylinder"});
   k("centre", &ChargeConfig::centre, "m", "centre of the balloon").required();
   k("radius", &ChargeConfig::radius, "m", "ball, cylinder: its radius").above(0);
@@ -111,6 +138,11 @@ void ChargeConfig::keys(Keys<ChargeConfig>& k) {
     "density of the balloon: in place of a ball's radius, or of its gas state")
       .above(0);
   k("pressure", &ChargeConfig::pressure, "Pa", "pressure, for a charge given by its gas state").above(0);
+}
+
+void ProductsConfig::keys(Keys<ProductsConfig>& k) {
+  k("law", &ProductsConfig::law, "", "equation of state of the detonation products").one_of({"jwl"});
+  k("jwl", &ProductsConfig::jwl, "", "parameters of the explosive; not given: TNT");
 }
 
 void FlowConfig::keys(Keys<FlowConfig>& k) {
@@ -136,7 +168,9 @@ void FlowConfig::keys(Keys<FlowConfig>& k) {
   k("moving_wall", &FlowConfig::moving_wall, "", "motion of the moving_wall sides");
   k("patch", &FlowConfig::patch, "", "parts of sides with a law of their own; later ones overwrite earlier ones");
   k("region", &FlowConfig::region, "", "regions with their own initial state; later ones overwrite earlier ones");
-  k("charge", &FlowConfig::charge, "", "explosive charges as balloons of hot gas");
+  k("charge", &FlowConfig::charge, "", "explosive charges");
+  k("products", &FlowConfig::products, "",
+    "detonation products as a substance of their own beside the gas: two more fields per cell");
 }
 
 int dimension(FlowConfig const& config) {
@@ -208,7 +242,46 @@ Gas make_gas(FlowConfig const& config) {
   return gas;
 }
 
+std::optional<Mixture> make_mixture(FlowConfig const& config) {
+  if (!config.products) return std::nullopt;
+  JwlConfig const& jwl = config.products->jwl;
+  Mixture mixture;
+  mixture.ambient = make_gas(config);
+  mixture.products.gamma = 1 + jwl.omega;
+  mixture.products.curve = {0, jwl.a, jwl.b, jwl.r1, jwl.r2, jwl.density};
+  return mixture;
+}
+
+Real products_mass(ChargeConfig const& charge, JwlConfig const& jwl) {
+  if (charge.tnt == "mass") return *charge.mass;
+  Real const energy = charge.energy ? *charge.energy : *charge.mass * charge.tnt_factor.value_or(1) * tnt_energy;
+  return energy / (jwl.energy / jwl.density);
+}
+
 namespace {
+
+/// What a scene with products asks of the rest of [fluid].
+void check_products(FlowConfig const& config) {
+  Location const& at = config.products->at;
+  demand(config.gas.law == "ideal", at,
+         "fluid.products: the gas beside the products must be ideal, but fluid.gas.law is " + config.gas.law +
+             "; products in water lose their internal energy so far.");
+  demand(!config.viscosity, at, "fluid.products: the viscous terms are those of one gas; leave [fluid.viscosity] out.");
+  demand(config.ambient.density > 0, at, "fluid.products: the ambient state is vacuum; give the gas there a density.");
+  for (int d = 0; d < dimension(config); ++d)
+    for (int side = 0; side < 2; ++side)
+      demand(carries_products(config.boundary.side(d, side)), config.boundary.at,
+             std::string("fluid.boundary.") + side_names[2 * d + side] + ": `" + config.boundary.side(d, side) +
+                 "` does not know products; use reflecting, moving_wall, outflow, inflow or periodic.");
+  if (!config.patch.empty())
+    demand(false, config.patch[0].at, "fluid.patch: parts of sides do not know products; give whole sides.");
+  JwlConfig const& jwl = config.products->jwl;
+  Real const least = make_mixture(config)->products.reference_energy(jwl.density);
+  demand(jwl.energy > least, at,
+         "fluid.products.jwl: an energy of " + std::to_string(jwl.energy) +
+             " J/m3 is below the reference curve at the " + "density of the explosive; it must exceed " +
+             std::to_string(least) + " J/m3.");
+}
 
 /// States off the admissible set of the equation of state (theory/fluid.md 1.2).
 void check_states(FlowConfig const& config) {
@@ -242,11 +315,12 @@ void check(FlowConfig const& config) {
   for (std::size_t r = 0; r < config.region.size(); ++r)
     check_region(config.region[r], "fluid.region[" + std::to_string(r) + "]");
   for (std::size_t c = 0; c < config.charge.size(); ++c)
-    check_charge(config.charge[c], n, "fluid.charge[" + std::to_string(c) + "]");
-  demand(
-      !(config.euler && config.euler->smooth && config.gas.law == "jwl"), config.euler ? config.euler->at : config.at,
-      "fluid.euler.smooth: the terms of smooth flow are those of ideal and stiffened gas, not of the jwl law; set it "
-      "to false.");
+    check_charge(config.charge[c], n, "fluid.charge[" + std::to_string(c) + "]", config);
+  if (config.products) check_products(config);
+  demand(!(config.euler && config.euler->smooth && (config.gas.law == "jwl" || config.products)),
+         config.euler ? config.euler->at : config.at,
+         "fluid.euler.smooth: the terms of smooth flow are those of ideal and stiffened gas, not of the jwl law and of "
+         "products; set it to false.");
   check_states(config);
   check_diffusion(config);
   require(!config.gravity || config.euler, config.gravity ? config.gravity->at : config.at,

@@ -7,10 +7,14 @@
 #include "core/base/keys.hpp"
 #include "fluid/diffusion/diffusion_config.hpp"
 #include "fluid/flux/sweep.hpp"
+#include "fluid/gas/mixture.hpp"
 #include "fluid/grid/grid.hpp"
 #include "fluid/source/gravity_config.hpp"
 
 namespace brisance::fluid {
+
+/// Energy of TNT by convention, J/kg (theory/fluid.md 1.3).
+inline constexpr Real tnt_energy = 4.184e6;
 
 /// Detonation products; the defaults are TNT (Dobratz & Crawford 1985).
 struct JwlConfig {
@@ -26,6 +30,14 @@ struct GasConfig {
   JwlConfig jwl;
   Location at;
   static void keys(Keys<GasConfig>& k);
+};
+
+/// Detonation products beside the gas: the scene then carries their mass and volume fraction (theory/fluid.md 1.4).
+struct ProductsConfig {
+  std::string law = "jwl";
+  JwlConfig jwl;
+  Location at;
+  static void keys(Keys<ProductsConfig>& k);
 };
 
 struct GasState {
@@ -183,9 +195,11 @@ struct RegionConfig {
   static void keys(Keys<RegionConfig>& k);
 };
 
-/// A balloon of hot gas at rest (theory/fluid.md 1.3), of which the mass and the energy are two figures. The grid is
-/// 1 m deep in absent directions: in 2D both are per metre of depth, in 1D per square metre.
+/// An explosive charge at rest, of which the mass and the energy are two figures (theory/fluid.md 1.3): a balloon of
+/// hot gas, or detonation products with an equation of state of their own. The grid is 1 m deep in absent directions:
+/// in 2D both are per metre of depth, in 1D per square metre.
 struct ChargeConfig {
+  std::string model = "balloon", tnt = "mass";
   std::string shape = "ball";
   Vec3 centre{};
   std::optional<double> radius, length;
@@ -215,6 +229,7 @@ struct FlowConfig {
   std::vector<PatchConfig> patch;
   std::vector<RegionConfig> region;
   std::vector<ChargeConfig> charge;
+  std::optional<ProductsConfig> products;
   Location at;
 
   int order() const { return euler ? euler->order : 1; }
@@ -235,6 +250,12 @@ Grid make_grid(FlowConfig const& config);
 /// The gas with its vacuum thresholds, relative to the ambient state or, where that is vacuum, to the largest initial
 /// values. Source: theory/fluid.md 1.5.
 Gas make_gas(FlowConfig const& config);
+
+/// Products and gas of a scene that has [fluid.products].
+std::optional<Mixture> make_mixture(FlowConfig const& config);
+/// Mass of products in a charge of model `jwl`, kg (2D: per metre): the stated mass, or that which holds the stated
+/// energy, given as such or by a mass of TNT. Source: theory/fluid.md 1.3.
+Real products_mass(ChargeConfig const& charge, JwlConfig const& jwl);
 
 /// Checks what keys alone cannot: shapes have their dimensions, charges are determined, inflow sides have a state.
 /// Errors: scene errors with the place in the scene.

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <map>
 
+#include "fluid/boundary/products.hpp"
+
 namespace brisance::fluid {
 namespace {
 
@@ -39,8 +41,8 @@ CellRange inner_slab(Block const& block, int d, int side, GhostShape const& shap
 }
 
 template <class Visit>
-void for_rows(CellRange const& range, Visit&& visit) {
-  for (int q = 0; q < 5; ++q)
+void for_rows(Block const& block, CellRange const& range, Visit&& visit) {
+  for (int q = 0; q < block.components(); ++q)
     for (Index k = 0; k < range.size[2]; ++k)
       for (Index j = 0; j < range.size[1]; ++j) visit(q, range.first[0], range.first[1] + j, range.first[2] + k);
 }
@@ -69,14 +71,14 @@ Real* copy_row(Real const* from, Index n, Real* to) {
 void copy(Block const& from, CellRange const& source, Block& to, CellRange const& target) {
   CellIndex const shift{target.first[0] - source.first[0], target.first[1] - source.first[1],
                         target.first[2] - source.first[2]};
-  for_rows(source, [&](int q, Index i, Index j, Index k) {
+  for_rows(from, source, [&](int q, Index i, Index j, Index k) {
     copy_row(from.component(q) + from.at(i, j, k), source.size[0],
              to.component(q) + to.at(i + shift[0], j + shift[1], k + shift[2]));
   });
 }
 
 void fill(Block& block, CellRange const& range, State const& u) {
-  for_rows(range, [&](int q, Index i, Index j, Index k) {
+  for_rows(block, range, [&](int q, Index i, Index j, Index k) {
     std::fill_n(block.component(q) + block.at(i, j, k), range.size[0], u[static_cast<std::size_t>(q)]);
   });
 }
@@ -97,14 +99,14 @@ bool holds_only(Block const& block, CellRange const& range, State const& u) {
 }
 
 Real* pack(Block const& block, CellRange const& range, Real* out) {
-  for_rows(range, [&](int q, Index i, Index j, Index k) {
+  for_rows(block, range, [&](int q, Index i, Index j, Index k) {
     out = copy_row(block.component(q) + block.at(i, j, k), range.size[0], out);
   });
   return out;
 }
 
 Real const* unpack(Block& block, CellRange const& range, Real const* in) {
-  for_rows(range, [&](int q, Index i, Index j, Index k) {
+  for_rows(block, range, [&](int q, Index i, Index j, Index k) {
     copy_row(in, range.size[0], block.component(q) + block.at(i, j, k));
     in += range.size[0];
   });
@@ -168,7 +170,9 @@ void Ghosts::build(Grid const& grid, std::vector<int> const& owner, int directio
   for (std::size_t p = 0; p < blocks_.size(); ++p) (waits[p] ? exchange.waiting : exchange.ready).push_back(p);
   auto const doubles = [&](std::vector<Slab> const& slabs) {
     std::size_t n = 0;
-    for (Slab const& s : slabs) n += 1 + 5 * ghost_slab(blocks_[s.block], direction, s.side, shape_).cells();
+    for (Slab const& s : slabs)
+      n += 1 + static_cast<std::size_t>(blocks_[s.block].components()) *
+                   ghost_slab(blocks_[s.block], direction, s.side, shape_).cells();
     return n;
   };
   for (Partner& p : exchange.partners) {
@@ -256,10 +260,12 @@ void Ghosts::start(int direction, Real time, UniformBlocks const* uniform) {
   tried_.clear();
   for (Slab const& s : exchange.domain) {
     if (find_end(s, direction, time)) continue;
+    Block& block = blocks_[s.block];
     if (fill_side_)
-      fill_side_(blocks_[s.block], direction, s.side, time, range_of(blocks_[s.block], direction, shape_));
+      fill_side_(block, direction, s.side, time, range_of(block, direction, shape_));
     else
-      boundaries_.fill(blocks_[s.block], direction, s.side, time, range_of(blocks_[s.block], direction, shape_));
+      boundaries_.fill(block, direction, s.side, time, range_of(block, direction, shape_));
+    if (block.components() > 5) fill_products(block, direction, s.side, boundaries_.law(direction, s.side));
     look_at_end(s, direction);
   }
 }

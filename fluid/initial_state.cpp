@@ -11,7 +11,10 @@ void fill(Flow& flow, std::function<State(CellIndex)> const& state) {
     CellIndex const first = block.first();
     for (Index k = 0; k < nz; ++k)
       for (Index j = 0; j < ny; ++j)
-        for (Index i = 0; i < nx; ++i) block.store(i, j, k, state({first[0] + i, first[1] + j, first[2] + k}));
+        for (Index i = 0; i < nx; ++i) {
+          block.store(i, j, k, state({first[0] + i, first[1] + j, first[2] + k}));
+          for (int q = 5; q < block.components(); ++q) block.component(q)[block.at(i, j, k)] = 0;
+        }
   }
 }
 

@@ -36,10 +36,9 @@ std::vector<parallel::Range> block_rows(Flow const& flow) {
 
 std::vector<double> pack_cells(Flow const& flow) {
   std::vector<double> data;
-  data.reserve(5 * cells_of(flow));
+  data.reserve(static_cast<std::size_t>(flow.components()) * cells_of(flow));
   for_cells(flow.blocks(), [&](Block const& block, Index i, Index j, Index k) {
-    State const u = block.load(i, j, k);
-    data.insert(data.end(), u.begin(), u.end());
+    for (int q = 0; q < block.components(); ++q) data.push_back(block.component(q)[block.at(i, j, k)]);
   });
   return data;
 }
@@ -47,8 +46,7 @@ std::vector<double> pack_cells(Flow const& flow) {
 void unpack_cells(Flow& flow, std::span<double const> data) {
   std::size_t at = 0;
   for_cells(flow.blocks(), [&](Block& block, Index i, Index j, Index k) {
-    block.store(i, j, k, {data[at], data[at + 1], data[at + 2], data[at + 3], data[at + 4]});
-    at += 5;
+    for (int q = 0; q < block.components(); ++q) block.component(q)[block.at(i, j, k)] = data[at++];
   });
 }
 

@@ -12,7 +12,7 @@ namespace brisance::fluid {
 /// Rows of this rank in the block-major numbering: the cells of block b start after all those of blocks 0..b-1, x
 /// fastest.
 std::vector<parallel::Range> block_rows(Flow const& flow);
-/// The five conserved means of those rows.
+/// The means of those rows: Flow::components() numbers a cell.
 std::vector<double> pack_cells(Flow const& flow);
 /// Expects: what pack_cells() returned for the same grid and block owners.
 void unpack_cells(Flow& flow, std::span<double const> data);

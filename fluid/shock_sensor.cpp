@@ -36,6 +36,14 @@ void pressure_row(Block const& block, Gas const& gas, Index j, Index k, Real* ou
   }
 }
 
+/// p + p_inf of the gas beside the products; 0 in vacuum.
+void pressure_row(Block const& block, Mixture const& mixture, Index j, Index k, Real* out) {
+  for (Index i = 0; i < block.size()[0]; ++i) {
+    MixtureState const x = block.load_mixture(i, j, k);
+    out[i] = mixture.vacuum(x) ? 0 : max(mixture.pressure(x) + mixture.ambient.curve.stiffness, 0);
+  }
+}
+
 /// Is the jump between two cells that of a shock? Never beside a cell without pressure (theory/fluid.md, trap T10).
 inline bool steep(Real a, Real b) {
   Real const least = min(a, b);
@@ -71,8 +79,9 @@ ShockSensor::ShockSensor(Grid const& grid, std::vector<int> const& owner, std::v
       exchange_pressure_(grid, owner, blocks, reach, comm, pressure_tag),
       exchange_marks_(grid, owner, blocks, 1, comm, mark_tag) {}
 
-void ShockSensor::update(std::vector<Block> const& blocks, Gas const& gas, std::function<bool(Index)> const& has_walls,
-                         IsFluid const& is_fluid, std::function<bool(std::size_t)> const& uniform) {
+void ShockSensor::update(std::vector<Block> const& blocks, Gas const& gas, Mixture const* mixture,
+                         std::function<bool(Index)> const& has_walls, IsFluid const& is_fluid,
+                         std::function<bool(std::size_t)> const& uniform) {
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     auto const [nx, ny, nz] = blocks[b].size();
     bool const walls = has_walls(blocks[b].id());
@@ -81,7 +90,10 @@ void ShockSensor::update(std::vector<Block> const& blocks, Gas const& gas, std::
     for (Index k = 0; k < nz; ++k)
       for (Index j = 0; j < ny; ++j) {
         Real* const row = pressure_[b].at(0, j, k);
-        pressure_row(blocks[b], gas, j, k, row);
+        if (mixture)
+          pressure_row(blocks[b], *mixture, j, k, row);
+        else
+          pressure_row(blocks[b], gas, j, k, row);
         if (walls)
           for (Index i = 0; i < nx; ++i)
             if (!is_fluid(blocks[b], i, j, k)) row[i] = 0;

@@ -3,7 +3,7 @@
 #pragma once
 #include <functional>
 
-#include "fluid/gas/gas.hpp"
+#include "fluid/gas/mixture.hpp"
 #include "fluid/layers.hpp"
 
 namespace brisance::fluid {
@@ -19,11 +19,12 @@ class ShockSensor {
   /// True where a cell of an owned block holds a state of the fluid; the others are skipped.
   using IsFluid = std::function<bool(Block const&, Index i, Index j, Index k)>;
 
-  /// Collective. Marks from the cells as they are, at the start of a pair of steps. `has_walls`: blocks in which
-  /// `is_fluid` must be asked.  Cost: one pass over the cells, two exchanges of thin layers. `uniform`: blocks, by
-  /// position, that hold one state in all cells.
-  void update(std::vector<Block> const& blocks, Gas const& gas, std::function<bool(Index)> const& has_walls,
-              IsFluid const& is_fluid, std::function<bool(std::size_t)> const& uniform);
+  /// Collective. `mixture`: null without products. Marks from the cells as they are, at the start of a pair of steps.
+  /// `has_walls`: blocks in which `is_fluid` must be asked.  Cost: one pass over the cells, two exchanges of thin
+  /// layers. `uniform`: blocks, by position, that hold one state in all cells.
+  void update(std::vector<Block> const& blocks, Gas const& gas, Mixture const* mixture,
+              std::function<bool(Index)> const& has_walls, IsFluid const& is_fluid,
+              std::function<bool(std::size_t)> const& uniform);
 
   /// Marks of the block at this position in the list of owned blocks, one ghost on every side; null: no mark within it
   /// and around it.

@@ -16,10 +16,14 @@ struct Survey {
   Real mach_max = 0;                                          ///< of gas
   State sum{};                                                ///< of the states of all cells
   Real momentum_size = 0;                                     ///< sum of |momentum|, per volume
+  Real products = 0;                                          ///< sum of the mass of products, per volume
 };
 
 /// Cost: one read of the block; 1 to 3 ns a cell.
 Survey survey(Block const& block, Gas const& gas);
+
+/// The same of a block with detonation products.
+Survey survey_mixture(Block const& block, Mixture const& mixture);
 
 /// |u_d| + c of one cell, m/s; 0 in vacuum.
 std::array<Real, 3> signal_speeds(State const& u, Gas const& gas);

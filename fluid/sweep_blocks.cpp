@@ -12,6 +12,12 @@ CellBox box_of(Block& block, int dimension) {
           dimension};
 }
 
+MixtureBox mixture_box_of(Block& block) {
+  MixtureBox box{{}, block.size(), block.stride()};
+  for (int q = 0; q < 7; ++q) box.u[static_cast<std::size_t>(q)] = block.component(q);
+  return box;
+}
+
 void merge(SweepReport& total, SweepReport const& report, CellIndex first, Grid const& grid) {
   total.signal_max = max(total.signal_max, report.signal_max);
   total.fallback_faces += report.fallback_faces;
@@ -59,6 +65,11 @@ void Flow::sweep_block(std::size_t position, int direction, Real dt, SweepReport
     merge(total, sweeper_->sweep(block, direction, dt), block.first(), grid_);
     return;
   }
+  if (mixture_) {
+    keep_saved(position);
+    sweep_products(block, direction, dt, total);
+    return;
+  }
   CellBox box = box_of(block, grid_.dimension);
   if (CellLayer<std::uint8_t> const* const layer = marks(block))
     box.marks = layer->at(0, 0, 0), box.mark_stride = layer->stride();
@@ -67,12 +78,30 @@ void Flow::sweep_block(std::size_t position, int direction, Real dt, SweepReport
   SweepReport const report = sweep_box(order_, box, direction, dt / grid_.spacing[direction], gas_, options_);
   if (saved.untouched) std::swap(block, *saved.spare);
   saved.untouched = false;
+  take(report, block, direction, dt, total);
+}
+
+/// Adds what the sweep of a block noticed, and what crossed the sides of the domain.
+void Flow::take(SweepReport const& report, Block const& block, int direction, Real dt, SweepReport& total) {
   merge(total, report, block.first(), grid_);
   for (int side = 0; side < 2; ++side)
     if (grid_.neighbour(block.id(), direction, side) < 0) {
       if (side == 1) total.fallback_faces += report.fallback_faces_high_end;
       ledger_.add(direction, side, dt, grid_.face_area(direction), side == 0 ? report.flux_low : report.flux_high);
     }
+}
+
+void Flow::sweep_products(Block& block, int direction, Real dt, SweepReport& total) {
+  MixtureBox box = mixture_box_of(block);
+  if (CellLayer<std::uint8_t> const* const layer = marks(block))
+    box.marks = layer->at(0, 0, 0), box.mark_stride = layer->stride();
+  MixtureReport const report =
+      sweep_mixture(order_, box, direction, dt / grid_.spacing[direction], *mixture_, options_);
+  take(report, block, direction, dt, total);
+  for (int side = 0; side < 2; ++side)
+    if (grid_.neighbour(block.id(), direction, side) < 0)
+      ledger_.add_products(side, dt, grid_.face_area(direction),
+                           side == 0 ? report.products_low : report.products_high);
 }
 
 SweepReport Flow::sweep(int direction, Real dt, Real middle) {

@@ -69,16 +69,21 @@ LocalTotals local_totals(Flow const& flow, FluidVolume const& volume) {
     for (std::size_t d = 0; d < 3; ++d) sums.momentum[d].add(part[1 + d]);
     sums.energy.add(part[4]);
     sums.momentum_size.add(part[5]);
+    if (flow.mixture()) sums.products.add(flow.survey(b).products * flow.grid().cell_volume());
   }
   return sums;
 }
 
 Totals totals(Flow const& flow, FluidVolume const& volume) {
   LocalTotals const local = local_totals(flow, volume);
-  std::array<parallel::ExactSum, 6> sums{local.mass,        local.momentum[0], local.momentum[1],
-                                         local.momentum[2], local.energy,      local.momentum_size};
+  std::array<parallel::ExactSum, 7> sums{local.mass,   local.momentum[0],   local.momentum[1], local.momentum[2],
+                                         local.energy, local.momentum_size, local.products};
   flow.comm().sum(std::span(sums));
-  return {sums[0].value(), {sums[1].value(), sums[2].value(), sums[3].value()}, sums[4].value(), sums[5].value()};
+  return {sums[0].value(),
+          {sums[1].value(), sums[2].value(), sums[3].value()},
+          sums[4].value(),
+          sums[5].value(),
+          sums[6].value()};
 }
 
 Extremes extremes(Flow const& flow, FluidVolume const& volume) {
@@ -109,8 +114,14 @@ void add_cells(parallel::Digest& digest, Flow const& flow, FluidVolume const& vo
   Grid const& grid = flow.grid();
   for (Block const& block : flow.blocks())
     for_cells(block, grid, volume, [&](CellIndex c, State const& u, Real v) {
-      Real const bits[6] = {u[0], u[1], u[2], u[3], u[4], v};
-      digest.add(cell_kind, grid.cell_id(c), bits);
+      if (flow.mixture()) {
+        std::ptrdiff_t const at = block.at(c[0] - block.first()[0], c[1] - block.first()[1], c[2] - block.first()[2]);
+        Real const bits[8] = {u[0], u[1], u[2], u[3], u[4], block.component(5)[at], block.component(6)[at], v};
+        digest.add(cell_kind, grid.cell_id(c), bits);
+      } else {
+        Real const bits[6] = {u[0], u[1], u[2], u[3], u[4], v};
+        digest.add(cell_kind, grid.cell_id(c), bits);
+      }
     });
 }
 

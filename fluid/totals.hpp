@@ -14,12 +14,13 @@ struct Totals {
   Vec3 momentum{};
   Real energy = 0;
   Real momentum_size = 0;  ///< sum of the sizes of the cells' momenta
+  Real products = 0;       ///< of the mass: detonation products
 };
 /// The part of this rank: each block summed in a fixed order, the blocks exactly.
 struct LocalTotals {
   parallel::ExactSum mass;
   std::array<parallel::ExactSum, 3> momentum;
-  parallel::ExactSum energy, momentum_size;
+  parallel::ExactSum energy, momentum_size, products;
 };
 LocalTotals local_totals(Flow const& flow, FluidVolume const& volume = {});
 /// Collective.
@@ -33,7 +34,7 @@ Extremes extremes(Flow const& flow, FluidVolume const& volume = {});
 
 /// Kind of a cell in the state digest.
 constexpr std::uint32_t cell_kind = 1;
-/// Adds the cells of this rank that hold fluid: their five conserved means and fluid volume. Not collective.
+/// Adds the cells of this rank that hold fluid: their means and fluid volume. Not collective.
 void add_cells(parallel::Digest& digest, Flow const& flow, FluidVolume const& volume = {});
 
 }  // namespace brisance::fluid

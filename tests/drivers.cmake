@@ -54,6 +54,9 @@ scene_fault(wrong_type "wrong_type.toml:5:19: fluid.euler.order = .five. is a st
             "${gas}euler = { order = \"five\" }\n")
 scene_fault(out_of_range "out_of_range.toml:5:17: fluid.euler.cfl = 1.5 is out of range; expected a number, above 0"
             "${gas}euler = { cfl = 1.5 }\n")
+set(wall "[solid.material.steel]\ndensity = 7800\nyoung_modulus = 2e11\npoisson_ratio = 0.3\n[[solid.body]]\nmaterial = \"steel\"\nshape = \"box\"\nlow = [0.4, 0.4]\nhigh = [0.6, 0.6]\ncells = [1, 1]\n[coupling]\ncut_cells = {}\n")
+scene_fault(products_beside_solid "products_beside_solid.toml:5:12: fluid.products: cut cells do not carry products yet"
+            "end_time = 1\n[fluid]\nhigh = [1, 1]\ncells = [16, 16]\nproducts = {}\neuler = {}\n${wall}")
 scene_fault(missing_key "missing_key.toml:2:1: fluid.cells is missing; expected" "end_time = 1\n[fluid]\nhigh = [1]\n")
 scene_fault(not_toml "not_toml.toml:1:[0-9]+: not valid TOML" "end_time = = 1\n")
 scene_fault(lonely_coupling ": .coupling. needs both .fluid. and .solid.; .solid. is missing" "${gas}[coupling]\n")

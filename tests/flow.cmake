@@ -54,3 +54,8 @@ brisance_test(fluid_viscous
   LINKS brisance::fluid
   LABELS verification)
 brisance_test(fluid_viscosity_unit SOURCES unit/fluid/viscosity_test.cpp LINKS brisance::fluid RANKS 1 3 LABELS unit)
+brisance_test(fluid_mixture
+  SOURCES verification/fluid/mixture_test.cpp support/mixture_tube.cpp support/riemann.cpp
+  LINKS brisance::fluid
+  LABELS verification)
+brisance_test(fluid_products SOURCES unit/fluid/products_test.cpp LINKS brisance::fluid RANKS 1 3 LABELS unit)

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "fluid/cell_state.hpp"
 #include "parallel/error.hpp"
 
 namespace brisance::fluid {
@@ -80,7 +81,12 @@ void Gauges::note(Real time) {
   Real const whole = flow_.grid().cell_volume();
   for (Cell const& c : mine_) {
     Real const share = volume_.cuts(c.block->id()) ? volume_(c.global) / whole : 1;
-    notes_.push_back(gauge_value(flow_.gas(), c.block->load(c.i, c.j, c.k), share));
+    if (flow_.mixture()) {
+      CellState const cell(flow_, *c.block, c.i, c.j, c.k);
+      notes_.push_back({cell.density(), cell.pressure(), cell.velocity(), share});
+    } else {
+      notes_.push_back(gauge_value(flow_.gas(), c.block->load(c.i, c.j, c.k), share));
+    }
   }
 }
 

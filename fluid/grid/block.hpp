@@ -1,9 +1,11 @@
-// One block of cells with ghosts: [component][k][j][i], x contiguous, rows padded to whole vectors.
+// One block of cells with ghosts: [component][k][j][i], x contiguous, rows padded to whole vectors. Five components, or
+// seven where detonation products mix with the gas (gas/mixture.hpp).
 #pragma once
 #include <cstddef>
 #include <memory>
 #include <span>
 
+#include "fluid/gas/mixture.hpp"
 #include "fluid/grid/grid.hpp"
 
 namespace brisance::fluid {
@@ -12,9 +14,11 @@ namespace brisance::fluid {
 class Block {
  public:
   static constexpr Index row_pad = 8;  ///< stored cells before and after a row, whatever the ghost depth
-  Block(Grid const& grid, Index id, Index ghost_depth);
+  static constexpr int max_components = 7;
+  Block(Grid const& grid, Index id, Index ghost_depth, int components = 5);
 
   Index id() const { return id_; }
+  int components() const { return components_; }
   CellIndex first() const { return first_; }  ///< global index of local cell (0, 0, 0)
   std::array<Index, 3> size() const { return size_; }
   std::array<Index, 3> ghost() const { return ghost_; }  ///< 0 in absent directions
@@ -31,12 +35,23 @@ class Block {
     std::ptrdiff_t const a = at(i, j, k);
     for (std::size_t q = 0; q < 5; ++q) origin_[q][a] = u[q];
   }
+  /// All components, of a block that has seven.
+  MixtureState load_mixture(Index i, Index j, Index k) const {
+    std::ptrdiff_t const a = at(i, j, k);
+    MixtureState x;
+    for (std::size_t q = 0; q < 7; ++q) x[q] = origin_[q][a];
+    return x;
+  }
+  void store_mixture(Index i, Index j, Index k, MixtureState const& x) {
+    std::ptrdiff_t const a = at(i, j, k);
+    for (std::size_t q = 0; q < 7; ++q) origin_[q][a] = x[q];
+  }
   std::size_t bytes() const { return bytes_; }
   /// All stored doubles, ghosts and padding included.
   std::span<Real> storage() { return {static_cast<Real*>(storage_.get()), bytes_ / sizeof(Real)}; }
   std::span<Real const> storage() const { return {static_cast<Real const*>(storage_.get()), bytes_ / sizeof(Real)}; }
   /// Sets every stored cell, ghosts and padding included: lanes beyond the last cell of a row then never compute with
-  /// rubbish.
+  /// rubbish. There are no products.
   void fill(State const& u);
 
  private:
@@ -44,7 +59,8 @@ class Block {
   CellIndex first_{};
   std::array<Index, 3> size_{}, ghost_{};
   std::array<std::ptrdiff_t, 3> stride_{};
-  std::array<Real*, 5> origin_{};
+  std::array<Real*, max_components> origin_{};
+  int components_;
   std::size_t bytes_ = 0;
   std::ptrdiff_t array_length_ = 0, origin_offset_ = 0;
   struct Free {

@@ -147,9 +147,17 @@ TEST(CellField, PeriodicSidesAreNeighbours) {
 
 TEST(CellField, FaultsOfTheListAreNamed) {
   FlowConfig config = testing::unit_box(2, 10);
-  EXPECT_NO_THROW(check_cell_fields(cell_field_names(), config, 2, {}));
+  std::vector<std::string> names = cell_field_names();
+  std::erase(names, "products");
+  std::erase(names, "volume_fraction_products");
+  EXPECT_NO_THROW(check_cell_fields(names, config, 2, {}));
+  EXPECT_THROW(check_cell_fields({"products"}, config, 2, {}), Error);
   EXPECT_THROW(check_cell_fields({"density", "pressure", "density"}, config, 2, {}), Error);
   EXPECT_THROW(check_cell_fields({"vorticity"}, config, 1, {}), Error);
+  config.products.emplace();
+  EXPECT_NO_THROW(check_cell_fields({"products", "volume_fraction_products"}, config, 2, {}));
+  EXPECT_THROW(check_cell_fields({"temperature"}, config, 2, {}), Error);
+  config.products.reset();
   config.gas.law = "stiffened";
   EXPECT_THROW(check_cell_fields({"temperature"}, config, 2, {}), Error);
 }

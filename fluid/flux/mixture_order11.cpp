@@ -1,0 +1,3 @@
+#include "fluid/flux/mixture_kernel.hpp"
+
+BRISANCE_INSTANTIATE_MIXTURE(11)
