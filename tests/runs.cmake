@@ -16,6 +16,8 @@ brisance_same_digest(bodies-leave ${PROJECT_SOURCE_DIR}/tests/support/scenes/bod
 brisance_same_digest(jwl-charge ${PROJECT_SOURCE_DIR}/tests/support/scenes/jwl-charge.toml 60)
 brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 60)
 brisance_same_digest(blast-in-a-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/blast-in-a-box.toml 24)
+brisance_same_digest(merged ${PROJECT_SOURCE_DIR}/tests/support/scenes/blast-in-a-box.toml 24
+                     --set "fluid.euler.splitting=\"merged\"" --set fluid.euler.smooth=true)
 brisance_same_digest(sides ${PROJECT_SOURCE_DIR}/tests/support/scenes/sides.toml 60)
 brisance_same_digest(double-mach ${PROJECT_SOURCE_DIR}/tests/support/scenes/double-mach.toml 40)
 brisance_same_digest(viscous-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-box.toml 40)
