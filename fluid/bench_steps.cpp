@@ -2,6 +2,7 @@
 
 #include <ctime>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -27,6 +28,7 @@ FlowConfig periodic_box(int order, std::vector<int> const& cells, int ranks) {
   config.cells = cells;
   config.cells[0] *= ranks;
   for (std::size_t d = 0; d < cells.size(); ++d) config.high[static_cast<int>(d)] = config.cells[d];
+  if (cells.size() == 3) config.block = *std::max_element(cells.begin(), cells.end());
   config.ambient = {1, 1, {}};
   config.euler.emplace();
   config.euler->order = order;
