@@ -153,7 +153,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   require(!coupled || w.dimension >= 2, Failure::scene, "coupling.cut_cells needs a fluid in 2 or 3 dimensions");
   if (coupled && !scene.fluid->euler)
     scene_error(scene.fluid->at, "coupling.cut_cells needs the effect fluid.euler: add euler = {} to [fluid]");
-  if (scene.fluid && scene.fluid->splitting() == fluid::Splitting::merged) {
+  if (scene.fluid && w.dimension > 1 && scene.fluid->splitting() == fluid::Splitting::merged) {
     char const* const other = coupled                  ? "coupling.cut_cells"
                               : scene.fluid->viscosity ? "fluid.viscosity"
                               : scene.fluid->gravity   ? "fluid.gravity"

@@ -132,8 +132,9 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
   Real dt = min(acoustic.dt, links_dt[0]);
   std::string limited_by = acoustic.dt <= links_dt[0] ? "fluid.acoustic (" + acoustic.where + ")" : "solid.links";
   if (scene.fluid && scene.fluid->viscosity) {
-    Real const viscous =
-        fluid::sub_cycled_limit(*scene.fluid->viscosity, initial_viscous_step(*scene.fluid, *grid), dt);
+    Real const stable = initial_viscous_step(*scene.fluid, *grid);
+    Real const viscous = world->cut_cells ? fluid::share_at_walls * stable
+                                          : fluid::sub_cycled_limit(*scene.fluid->viscosity, stable, dt);
     if (viscous < dt) dt = viscous, limited_by = "fluid.viscous";
   }
   Real const steps = scene.end_time / dt;
@@ -190,7 +191,7 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
                               {"cells_across", c.cells_across},
                               {"density", c.density},
                               {"pressure", c.pressure}});
-    if (scene.fluid) j["options"] = {{"fluid.sleep", scene.fluid->sleep}};
+    if (scene.fluid) j["options"] = {{"fluid.sleep", world->flow->may_sleep()}};
     j["dt"] = {{"initial", dt}, {"limited_by", limited_by}};
     j["steps"] = std::ceil(steps);
     j["ranks"] = options.ranks;
@@ -205,8 +206,9 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
     fmt::print("  {:<24} {}\n", name, active(name) ? "on" : "off: " + why_off(name, scene));
   if (scene.fluid)
     fmt::print("\noptions\n  {:<24} {}\n", "fluid.sleep",
-               scene.fluid->sleep ? "on: uniform blocks are not swept; the predicted time counts all blocks"
-                                  : "off: all blocks are swept");
+               world->flow->may_sleep() ? "on: uniform blocks are not swept; the predicted time counts all blocks"
+               : scene.fluid->sleep     ? "off: products, viscosity or gravity act on all blocks"
+                                        : "off: all blocks are swept");
   fmt::print("\nstages\n");
   for (std::size_t s = 0; s < static_cast<std::size_t>(Stage::count); ++s) {
     auto const& tasks = world->plan.tasks(static_cast<Stage>(s));

@@ -116,11 +116,8 @@ class Balloon {
   template <class Weight>
   Real sum_of(Weight const& weight) {
     parallel::ExactSum sum;
-    for (Block& block : flow_.blocks()) {
-      Real part = 0;
-      visit(block, [&](Index, Index, Index, CellIndex c, Real share) { part += weight(share) * volume(c); });
-      sum.add(part);
-    }
+    for (Block& block : flow_.blocks())  // cell by cell: the sum must not tell the blocks apart
+      visit(block, [&](Index, Index, Index, CellIndex c, Real share) { sum.add(weight(share) * volume(c)); });
     flow_.comm().sum(std::span(&sum, 1));
     return sum.value();
   }

@@ -15,7 +15,6 @@ class Euler : public Effect {
   /// Fluid volume of a cell where walls cut cells; 0 marks a solid cell, which holds no state. Without it all cells are
   /// full.
   void set_fluid_volume(FluidVolume volume) { volume_ = std::move(volume); }
-  FluidVolume const& fluid_volume() const { return volume_; }
   std::int64_t fallback_faces() const { return fallback_faces_; }
   std::int64_t cell_updates() const { return cell_updates_; }
 
@@ -27,7 +26,7 @@ class Euler : public Effect {
   EulerConfig config_;
   Flow& flow_;
   FluidVolume volume_;
-  SweepReport report_, saved_report_;  ///< of the pair under way
+  SweepReport report_;  ///< of the pair under way
   std::int64_t fallback_faces_ = 0, saved_fallback_faces_ = 0, cell_updates_ = 0;
 };
 

@@ -82,6 +82,8 @@ class Flow {
 
   /// From now on every block is swept: for effects that act on uniform gas too, such as body forces.
   void keep_awake() { sleep_ = false; }
+  /// May blocks sleep: the scene's wish, unless an effect keeps them awake?
+  bool may_sleep() const { return sleep_; }
   /// What sleep saved on this rank since the start of the program.
   struct Saved {
     std::int64_t block_sweeps = 0, block_sweeps_skipped = 0;

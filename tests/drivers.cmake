@@ -59,7 +59,7 @@ scene_fault(products_beside_solid "products_beside_solid.toml:5:12: fluid.produc
             "end_time = 1\n[fluid]\nhigh = [1, 1]\ncells = [16, 16]\nproducts = {}\neuler = {}\n${wall}")
 scene_fault(missing_key "missing_key.toml:2:1: fluid.cells is missing; expected" "end_time = 1\n[fluid]\nhigh = [1]\n")
 scene_fault(merged_gravity "merged_gravity.toml:5:9: fluid.euler.splitting = .merged. has no whole steps, which fluid.gravity acts between"
-            "${gas}euler = { splitting = \"merged\" }\ngravity = { acceleration = [\"-9.81 m/s2\"] }\n")
+            "end_time = 1\n[fluid]\nhigh = [1, 1]\ncells = [16, 16]\neuler = { splitting = \"merged\" }\ngravity = { acceleration = [0, \"-9.81 m/s2\"] }\n")
 scene_fault(not_toml "not_toml.toml:1:[0-9]+: not valid TOML" "end_time = = 1\n")
 scene_fault(lonely_coupling ": .coupling. needs both .fluid. and .solid.; .solid. is missing" "${gas}[coupling]\n")
 scene_fault(gauge_outside "gauge_outside.toml:5:1: output.gauge .far. stands at x = 2 m, outside the grid, which reaches from 0 to 1 m"

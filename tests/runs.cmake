@@ -18,6 +18,8 @@ brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/r
 brisance_same_digest(blast-in-a-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/blast-in-a-box.toml 24)
 brisance_same_digest(merged ${PROJECT_SOURCE_DIR}/tests/support/scenes/blast-in-a-box.toml 24
                      --set "fluid.euler.splitting=\"merged\"" --set fluid.euler.smooth=true)
+brisance_same_digest(rejected-viscous ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 40
+                     --set "fluid.viscosity.law=\"sutherland\"" --set "fluid.gravity.acceleration=[0, -9.81]")
 brisance_same_digest(sides ${PROJECT_SOURCE_DIR}/tests/support/scenes/sides.toml 60)
 brisance_same_digest(double-mach ${PROJECT_SOURCE_DIR}/tests/support/scenes/double-mach.toml 40)
 brisance_same_digest(viscous-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-box.toml 40)
@@ -31,6 +33,7 @@ function(brisance_same_gauges name scene steps)
   set_tests_properties(same_gauges.${name} PROPERTIES LABELS "parallel;restart" PROCESSORS 2 TIMEOUT 600)
 endfunction()
 brisance_same_gauges(gauges ${PROJECT_SOURCE_DIR}/tests/support/scenes/gauges.toml 160)
+brisance_same_gauges(merged ${PROJECT_SOURCE_DIR}/tests/support/scenes/gauges-in-a-box.toml 24)
 brisance_same_gauges(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 40)
 brisance_same_gauges(explosion-box-3d ${scenes}/explosion-box-3d.toml 12 --set fluid.block=32 --set output.interval=1e-5
                      --set "output.fields=[\"schlieren\", \"vorticity\"]" --set output.gauge.0.interval=1e-6 --set output.gauge.1.interval=1e-6)

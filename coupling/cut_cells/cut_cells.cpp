@@ -73,6 +73,7 @@ void CutCells::rebuild_record() {
   record_.rebuild();
   sweeper_.rebuild(record_);
   same_ = false;
+  if (viscous_) viscous_->forget_plan();
 }
 
 fluid::ViscousWalls& CutCells::add_viscosity(fluid::Transport const& transport) {

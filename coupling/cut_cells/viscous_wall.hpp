@@ -29,6 +29,8 @@ class ViscousWall : public fluid::ViscousWalls {
 
   /// Forgets the fluxes of the last step.
   void begin_step();
+  /// The geometry was put back: which states of other ranks are needed must be found anew.
+  void forget_plan() { planned_ = false; }
   /// Collective. Friction and heat of the pieces of `next` in owned cells, from full cells around them, which are
   /// final; `now`: the record at the start of the step; `moved`: is the geometry another than at the last call?
   void find(WallRecord const& now, WallRecord const& next, bool moved);
@@ -50,8 +52,8 @@ class ViscousWall : public fluid::ViscousWalls {
   WallSweeper& sweeper_;
   parallel::Comm& comm_;
   Sink sink_;
-  StateGather around_;  // cells of other ranks in the neighbourhoods of owned cut cells
-  bool planned_ = false;
+  StateGather around_;    // cells of other ranks in the neighbourhoods of owned cut cells
+  bool planned_ = false;  // of `around_`, for the geometry under way
   std::vector<PieceFriction> found_;
 };
 

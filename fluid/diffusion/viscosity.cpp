@@ -6,10 +6,6 @@
 namespace brisance::fluid {
 namespace {
 
-/// Groups of small cells take the fluxes of whole cells into as little as 0.4 of their volume: the step that is stable
-/// for whole cells makes them oscillate (measured on the turning cylinder: with all of it, not with a third).
-constexpr Real share_at_walls = 1.0 / 3;
-
 /// mu / rho of a row of cells, m2/s; 0 in vacuum. Loops that compilers turn into vectors.
 void kinematic_viscosity(std::array<Real const*, 5> const& u, Index n, Transport const& transport,
                          Real* __restrict__ out) {

@@ -29,9 +29,11 @@ struct ViscousWalls {
   virtual FaceSink& sink(Index block, Real weight) = 0;
 };
 
+/// Beside cut cells V is not sub-cycled and keeps this share of its limit (fluid/README.md).
+inline constexpr Real share_at_walls = 1.0 / 3;
+
 /// One step is V(dt/2) S(dt) V(dt/2), S the sweeps and V a Heun step (`strang`), or S(dt) followed by one Euler step
-/// V(dt)
-/// (`lie`). V is sub-cycled where its limit is below half the step of the others.  Source: theory/fluid.md 5.2.
+/// V(dt) (`lie`). V is sub-cycled where its limit is below half the step of the others.  Source: theory/fluid.md 5.2.
 class Viscosity : public Effect {
  public:
   /// `flow` must outlive this.  Expects: config.viscosity.
