@@ -174,6 +174,20 @@ TEST(Viscosity, SubCyclesInsteadOfShorteningTheStep) {
   EXPECT_FALSE(steps(1000).limited_by.contains("fluid.viscous"));
 }
 
+/// Far beyond its limit a step overshoots: the cell is named, so that the pair is taken back.
+TEST(Viscosity, RaisesItsHealthWhereTheEnergyTurnsNegative) {
+  FlowConfig config = viscous_box(2, 12);
+  config.viscosity->time = "lie";
+  testing::FluidRun run(config, 1, testing::comm());
+  fill(*run.flow, [&](CellIndex c) { return run.flow->gas().conserved(1, {}, c == CellIndex{7, 3, 0} ? 10 : 1); });
+  auto const verdict = [&] { return run.plan.judges().back()({}); };
+  run.viscosity->advance(0.4 * run.viscosity->stable_step(), 1);
+  EXPECT_TRUE(verdict().good);
+  run.viscosity->advance(20 * run.viscosity->stable_step(), 1);
+  EXPECT_EQ(verdict().good, run.flow->blocks().empty());
+  EXPECT_TRUE(verdict().good || verdict().message.find("after a viscous step in cell (") != std::string::npos);
+}
+
 /// Falling freely, gas gains g t and loses height: its energy grows by the work of the force, to the last digit.
 TEST(Gravity, WorksExactlyOnGasInFreeFall) {
   FlowConfig config = testing::unit_box(2, 12);

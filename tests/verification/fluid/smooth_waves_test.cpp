@@ -9,6 +9,7 @@
 #include "fluid/flux/osmp.hpp"
 #include "tests/support/evidence.hpp"
 #include "tests/support/quadrature.hpp"
+#include "tests/support/steepening_wave.hpp"
 #include "tests/support/tables.hpp"
 #include "tests/support/tube.hpp"
 
@@ -128,33 +129,6 @@ TEST(ScalarAdvection, ProfileIsAsGoodAsTheTable) {
 }
 
 // ---- a simple wave up to half its shock time
-
-/// Characteristics x = xi + (u + c) t carry u = 0.2 sin 2 pi xi, c = 1 + 0.2 u, rho = 1.4 c^5, p = c^7.
-struct SimpleWave {
-  double t;
-  double velocity(double xi) const { return 0.2 * std::sin(2 * std::numbers::pi * xi); }
-  double sound(double xi) const { return 1 + 0.2 * velocity(xi); }
-  double origin(double x) const {
-    double xi = x;
-    for (int turn = 0; turn < 50; ++turn) {
-      double const slope = 1 + t * 1.2 * 0.4 * std::numbers::pi * std::cos(2 * std::numbers::pi * xi);
-      double const step = (xi + (velocity(xi) + sound(xi)) * t - x) / slope;
-      xi -= step;
-      if (std::abs(step) < 1e-15) break;
-    }
-    return xi;
-  }
-  fluid::State at(fluid::Gas const& gas, double x) const {
-    double const xi = origin(x), c = sound(xi);
-    return gas.conserved(1.4 * std::pow(c, 5), {velocity(xi), 0, 0}, std::pow(c, 7));
-  }
-  fluid::State mean(fluid::Gas const& gas, double low, double high) const {
-    fluid::State u;
-    for (std::size_t q = 0; q < 5; ++q)
-      u[q] = integral([&](double x) { return at(gas, x)[q]; }, low, high) / (high - low);
-    return u;
-  }
-};
 
 TEST(SimpleWave, IsAsGoodAsTheTable) {
   constexpr double end = 0.3316;
