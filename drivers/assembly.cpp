@@ -186,6 +186,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (scene.fluid && scene.fluid->viscosity) w.viscosity = std::make_unique<fluid::Viscosity>(*scene.fluid, *w.flow);
   if (scene.fluid && scene.fluid->gravity) w.gravity = std::make_unique<fluid::Gravity>(*scene.fluid->gravity, *w.flow);
   if (w.solid) w.dynamics = std::make_unique<solid::Dynamics>(*scene.solid, *w.solid);
+  if (w.solid) w.solid_effects = solid::make_effects(*scene.solid, *w.solid, comm);
   if (coupled) {
     fluid::GasState const& air = scene.fluid->ambient;
     w.cut_cells =
@@ -211,6 +212,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (w.viscosity) w.viscosity->join(w.plan);
   if (w.gravity) w.gravity->join(w.plan);
   if (w.dynamics) w.dynamics->join(w.plan);
+  for (auto const& effect : w.solid_effects) effect->join(w.plan);
   if (w.cut_cells) w.cut_cells->join(w.plan);
   if (!scene.output.gauge.empty()) {
     w.gauges = std::make_unique<fluid::Gauges>(scene.output.gauge, *scene.fluid, *w.flow, fluid_volumes(w));
@@ -226,11 +228,16 @@ fluid::FluidVolume fluid_volumes(World const& world) {
   return world.cut_cells ? world.cut_cells->fluid_volumes() : fluid::FluidVolume{};
 }
 
+void start_effects(World& world) {
+  for (auto const& effect : world.solid_effects) effect->start();
+}
+
 void start(World& w, Scene const& scene) {
   if (w.cut_cells) w.cut_cells->cut_initial_geometry();
   if (w.flow) fluid::fill(*w.flow, *scene.fluid, fluid_volumes(w));
   if (w.cut_cells) w.cut_cells->start();
   if (w.dynamics) w.dynamics->start();
+  start_effects(w);
   w.simulation->audit();
 }
 

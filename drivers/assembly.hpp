@@ -33,6 +33,7 @@ struct World {
   std::unique_ptr<fluid::Viscosity> viscosity;
   std::unique_ptr<fluid::Gravity> gravity;
   std::unique_ptr<solid::Dynamics> dynamics;
+  std::vector<std::unique_ptr<Effect>> solid_effects;
   std::unique_ptr<coupling::CutCells> cut_cells;
   std::unique_ptr<fluid::Gauges> gauges;
   Plan plan;
@@ -56,6 +57,9 @@ fluid::FluidVolume fluid_volumes(World const& world);
 
 /// Collective. Initial fields, geometry, forces and loads; takes the reference of the account.
 void start(World& world, Scene const& scene);
+
+/// Collective. Lets the effects see a state that is complete: the initial one, or that of a checkpoint.
+void start_effects(World& world);
 
 /// The effects this program knows, by scene section, in the order of the catalogue.
 std::vector<std::string> const& catalogue();

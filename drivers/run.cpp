@@ -131,6 +131,7 @@ int execute(Job const& job, parallel::Comm& comm) {
     log_charges(*world, scene);
   } else {
     resume(*world, job.checkpoints);
+    start_effects(*world);
   }
   if (world->gauges)
     for (std::string const& remark : world->gauges->open(job.directory, simulation.clock())) spdlog::warn("{}", remark);

@@ -125,7 +125,7 @@ void write_summary(World& world, RunState const& run, std::string const& directo
     j["cut_cells"] = counts[0];
     j["particles"] = world.mesh ? world.mesh->size() : 0;
     j["links"] = world.mesh ? static_cast<std::int64_t>(world.mesh->links.size()) : 0;
-    j["links_broken"] = 0;
+    j["links_broken"] = static_cast<std::int64_t>(simulation.ledger().received(Entry::links_broken));
     j["dt"] = {{"min", s.dt_min}, {"max", s.dt_max}, {"limited_by", s.limited_by}};
     j["conservation"] = {{"mass", c.mass},
                          {"momentum", {c.momentum.x, c.momentum.y, c.momentum.z}},
@@ -170,7 +170,8 @@ void write_summary(World& world, RunState const& run, std::string const& directo
 }
 
 std::string history_header() {
-  return "step,time,dt,limited_by,mass,energy,energy_fluid,energy_kinetic,energy_elastic,defect_mass,defect_momentum_x,"
+  return "step,time,dt,limited_by,mass,energy,energy_fluid,energy_kinetic,energy_elastic,energy_dissipated,defect_mass,"
+         "defect_momentum_x,"
          "defect_momentum_y,defect_momentum_z,defect_exchange_energy,defect_energy,links_broken\n";
 }
 
@@ -179,10 +180,12 @@ std::string history_row(World const& world) {
   Ledger const& l = s.ledger();
   Conservation const& c = l.conservation();
   return fmt::format(
-      "{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},0\n",
+      "{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},"
+      "{}\n",
       s.clock().step, s.clock().time, s.clock().dt, s.limited_by(), l.total(Entry::mass), l.total(Entry::energy),
-      l.total(Entry::fluid_energy), l.total(Entry::solid_kinetic), l.total(Entry::solid_elastic), c.mass, c.momentum.x,
-      c.momentum.y, c.momentum.z, c.exchange_energy, c.energy_final);
+      l.total(Entry::fluid_energy), l.total(Entry::solid_kinetic), l.total(Entry::solid_elastic),
+      l.received(Entry::dissipated), c.mass, c.momentum.x, c.momentum.y, c.momentum.z, c.exchange_energy,
+      c.energy_final, static_cast<std::int64_t>(l.received(Entry::links_broken)));
 }
 
 }  // namespace brisance::drivers

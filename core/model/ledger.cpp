@@ -43,7 +43,7 @@ void Ledger::audit(parallel::Comm& comm) {
   }
   Real const energy_scale = max(max(std::abs(totals_[at(Entry::energy)]), std::abs(reference_[at(Entry::energy)])),
                                 crossed(Entry::exchanged_energy));
-  Real const energy = change(Entry::energy) - crossed(Entry::in_energy);
+  Real const energy = change(Entry::energy) - crossed(Entry::in_energy) + crossed(Entry::dissipated);
   result_.energy = max(result_.energy, relative(energy, energy_scale));
   result_.energy_final = energy_scale > 0 ? energy / energy_scale : energy;
   Real const exchange = change(Entry::fluid_energy) - crossed(Entry::fluid_in_energy) + crossed(Entry::wall_work);

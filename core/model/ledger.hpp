@@ -29,6 +29,8 @@ enum class Entry : std::size_t {
   wall_work,         // work of the fluid on the solid
   pressure_impulse,  // sum of the sizes of the impulses of all pressures
   exchanged_energy,  // sum of the sizes of all exchanges of energy
+  dissipated,        // mechanical energy turned into cracks, slip, plastic work, damping: left the account, J
+  links_broken,      // number
   count
 };
 constexpr std::size_t entry_count = static_cast<std::size_t>(Entry::count);
@@ -52,6 +54,8 @@ class Ledger {
   void audit(parallel::Comm& comm);
   Conservation const& conservation() const { return result_; }
   Real total(Entry entry) const { return totals_[static_cast<std::size_t>(entry)]; }
+  /// What came of it since the start of the scene, of the entries that are not totals.
+  Real received(Entry entry) const { return crossed_[static_cast<std::size_t>(entry)]; }
 
   /// Everything a restart needs, as doubles; the same on every rank.
   static constexpr std::size_t stored_size = 2 * entry_count + entry_count + 8;

@@ -42,8 +42,12 @@ char const* name(Stage stage) {
       return "source_again";
     case Stage::forces:
       return "forces";
+    case Stage::contact:
+      return "contact";
     case Stage::kick_again:
       return "kick_again";
+    case Stage::fracture:
+      return "fracture";
     case Stage::count:
       break;
   }

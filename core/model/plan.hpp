@@ -3,6 +3,7 @@
 #pragma once
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/model/clock.hpp"
@@ -55,6 +56,10 @@ class Plan {
   void health(std::function<Verdict(Clock const&)> judge) { health_.push_back(std::move(judge)); }
   void keep(Keep k) { kept_.push_back(std::move(k)); }
   void account(std::function<void(Ledger&)> add) { accounts_.push_back(std::move(add)); }
+  /// During Stage::fracture, on all ranks alike: the law of force has changed, so Stage::forces and Stage::contact run
+  /// once more before the next step.
+  void ask_for_forces() { forces_asked_ = true; }
+  bool take_asked_forces() { return std::exchange(forces_asked_, false); }
 
   std::vector<Task> const& tasks(Stage s) const { return tasks_[static_cast<std::size_t>(s)]; }
   std::vector<Limit> const& limits() const { return limits_; }
@@ -71,6 +76,7 @@ class Plan {
   std::vector<std::function<Verdict(Clock const&)>> health_;
   std::vector<Keep> kept_;
   std::vector<std::function<void(Ledger&)>> accounts_;
+  bool forces_asked_ = false;
 };
 
 /// One physical effect. Exists only if the scene lists it.
@@ -79,6 +85,9 @@ class Effect {
   virtual ~Effect() = default;
   /// Registers state, tasks, limits, accounts. Called once, in catalogue order.
   virtual void join(Plan& plan) = 0;
+  /// Collective. Once, when the initial state is complete or a checkpoint has been read; adds to no state that a
+  /// checkpoint holds.
+  virtual void start() {}
 };
 
 }  // namespace brisance

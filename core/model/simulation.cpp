@@ -24,7 +24,13 @@ void Simulation::step() {
   run(Stage::fill);
   run(Stage::source_again);
   run(Stage::forces);
+  run(Stage::contact);
   run(Stage::kick_again);
+  run(Stage::fracture);
+  if (plan_.take_asked_forces()) {  // both kicks that meet at a break see the links of their own side of it
+    run(Stage::forces);
+    run(Stage::contact);
+  }
   clock_.time += clock_.dt;
   clock_.step += 1;
 }

@@ -20,7 +20,9 @@ enum class Stage {
   fill,           ///< the new geometry becomes the record; mirror states
   source_again,   ///< second half of the sources, on the state at t^{n+1}
   forces,         ///< internal forces at t^{n+1}
+  contact,        ///< forces between bodies at t^{n+1}
   kick_again,     ///< V^{n+1}
+  fracture,       ///< links over their criterion leave
   count
 };
 

@@ -52,10 +52,19 @@ void Dynamics::join(Plan& plan) {
   };
   keep.write = [this](parallel::ArchiveWriter& file) {
     file.rows("solid/particles", solid_.mesh().size(), Solid::row_size, rows_of(solid_.owned_ids()), solid_.pack());
+    if (solid_.damageable())
+      file.rows("solid/links_intact", static_cast<std::int64_t>(solid_.mesh().links.size()), 1,
+                rows_of(solid_.owned_link_ids()), solid_.pack_intact());
   };
   keep.read = [this](parallel::ArchiveReader& file) {
     solid_.unpack(solid_.owned_ids(), file.rows("solid/particles", Solid::row_size, rows_of(solid_.owned_ids())));
     solid_.exchange_pose();
+    if (!solid_.damageable()) return;
+    std::vector<GlobalId> links;
+    for (std::size_t k = 0; k < solid_.links(); ++k) links.push_back(static_cast<GlobalId>(solid_.mesh_link(k)));
+    auto const intact = file.rows("solid/links_intact", 1, rows_of(links));
+    for (std::size_t k = 0; k < links.size(); ++k)
+      if (intact[k] != 1) solid_.weaken(k, intact[k]);
   };
   keep.digest = [this](parallel::Digest& digest) { solid_.digest(digest); };
   plan.keep(std::move(keep));
@@ -75,6 +84,11 @@ void Dynamics::join(Plan& plan) {
 void Dynamics::start() {
   solid_.exchange_pose();
   if (config_.links) solid_.compute_forces();
+}
+
+std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const&, Solid&, parallel::Comm&) {
+  std::vector<std::unique_ptr<Effect>> effects;
+  return effects;
 }
 
 Verdict Dynamics::judge() const {

@@ -11,7 +11,7 @@ class Dynamics : public Effect {
   Dynamics(SolidConfig const& config, Solid& solid) : config_(config), solid_(solid) {}
   void join(Plan& plan) override;
   /// Collective. Ghost poses and internal forces of the initial state.
-  void start();
+  void start() override;
   std::int64_t link_updates() const { return link_updates_; }
 
  private:
@@ -22,5 +22,8 @@ class Dynamics : public Effect {
   std::int64_t link_updates_ = 0;
   Real elapsed_ = 0;  ///< s since the last account
 };
+
+/// The other effects a scene lists, in the order of their tasks: one line each.
+std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm& comm);
 
 }  // namespace brisance::solid

@@ -1,12 +1,13 @@
 #include "core/solid/halo.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace brisance::solid {
 namespace {
 
 constexpr std::size_t row = 13;  // x 3, q 4, v 3, omega 3
-constexpr int tag = 301;
+constexpr int tag = 301, rows_tag = 302;
 
 }  // namespace
 
@@ -69,6 +70,33 @@ void Halo::finish(std::span<Pose> pose, std::span<HalfVelocity> half) {
       h.v = {in[7], in[8], in[9]};
       h.omega = {in[10], in[11], in[12]};
       in += row;
+    }
+  }
+}
+
+void Halo::exchange_rows(parallel::Comm& comm, std::span<double> rows, std::size_t width) {
+  if (to_.empty() && from_.empty()) return;
+  std::vector<std::vector<double>> out, in;
+  for (Partner const& p : to_) {
+    auto& buffer = out.emplace_back();
+    buffer.reserve(width * p.particles.size());
+    for (Index local : p.particles) {
+      auto const row = rows.subspan(width * static_cast<std::size_t>(local), width);
+      buffer.insert(buffer.end(), row.begin(), row.end());
+    }
+  }
+  for (Partner const& p : from_) in.emplace_back(width * p.particles.size());
+  std::vector<parallel::Comm::Send> sends;
+  std::vector<parallel::Comm::Receive> receives;
+  for (std::size_t n = 0; n < to_.size(); ++n) sends.push_back({to_[n].rank, std::as_bytes(std::span(out[n]))});
+  for (std::size_t n = 0; n < from_.size(); ++n)
+    receives.push_back({from_[n].rank, std::as_writable_bytes(std::span(in[n]))});
+  comm.start(sends, receives, rows_tag)->finish();
+  for (std::size_t n = 0; n < from_.size(); ++n) {
+    double const* row = in[n].data();
+    for (Index local : from_[n].particles) {
+      std::copy_n(row, width, rows.begin() + static_cast<std::ptrdiff_t>(width * static_cast<std::size_t>(local)));
+      row += width;
     }
   }
 }

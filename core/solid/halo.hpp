@@ -21,6 +21,8 @@ class Halo {
   void connect(parallel::Comm& comm, std::span<Ghost const> ghosts, std::span<Index const> local);
   void start(parallel::Comm& comm, std::span<Pose const> pose, std::span<HalfVelocity const> half);
   void finish(std::span<Pose> pose, std::span<HalfVelocity> half);
+  /// Rows of `width` doubles per particle, from owners to ghosts. Collective among neighbours.
+  void exchange_rows(parallel::Comm& comm, std::span<double> rows, std::size_t width);
 
  private:
   struct Partner {

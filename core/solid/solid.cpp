@@ -125,20 +125,24 @@ void Solid::store_particles() {
   }
 }
 
+LinkRest<double> Solid::rest_of(Link const& link) const {
+  FaceGeometry const& face = mesh_.face(link.i, link.face_i);
+  // The wall is a particle at rest at the origin: its arm is the place of the face itself.
+  Vec3 const arm_j =
+      mesh_.particle(link.i).centre + face.centroid - (link.j == Link::wall ? Vec3{} : mesh_.particle(link.j).centre);
+  auto const bending = symmetric(bending_tensor(mesh_, link));
+  LinkRest<double> rest{link.stiffness,        link.weight,   triple(face.area * face.normal),
+                        triple(face.centroid), triple(arm_j), {}};
+  std::copy_n(bending.begin(), 6, rest.bending);
+  return rest;
+}
+
 void Solid::store_links() {
   for (std::size_t l : mesh_link_) {
     Link const& link = mesh_.links[l];
-    FaceGeometry const& face = mesh_.face(link.i, link.face_i);
-    Vec3 const x_i = mesh_.particle(link.i).centre;
     bool const wall = link.j == Link::wall;
-    // The wall is a particle at rest at the origin: its arm is the place of the face itself.
-    Vec3 const arm_j = x_i + face.centroid - (wall ? Vec3{} : mesh_.particle(link.j).centre);
-    auto const bending = symmetric(bending_tensor(mesh_, link));
-    LinkRest<double> rest{link.stiffness,        link.weight,   triple(face.area * face.normal),
-                          triple(face.centroid), triple(arm_j), {}};
-    std::copy_n(bending.begin(), 6, rest.bending);
     if (wall && local(link.i) < owned_) clamps_.push_back(links_.count());
-    links_.add(local(link.i), wall ? count_ : local(link.j), rest);
+    links_.add(local(link.i), wall ? count_ : local(link.j), rest_of(link));
   }
 }
 

@@ -81,13 +81,39 @@ class Solid {
   /// compute_forces.
   void load_faces(std::span<FaceLoad const> loads);
 
+  // Links of this rank, in global order: those of owned particles and of the first layer of ghosts.
+  LinkStore const& link_store() const { return links_; }
+  std::size_t mesh_link(std::size_t link) const { return mesh_link_[link]; }  ///< its place in Mesh::links
+  /// Place of a link of the mesh among those of this rank, if it is here.
+  std::optional<std::size_t> local_link(std::size_t mesh_link) const;
+  /// lambda epsilon, Pa, and opened volume, m3, at the last compute_forces: right for owned particles and the first
+  /// layer of ghosts.
+  std::span<double const> pressure() const { return std::span(pressure_).first(static_cast<std::size_t>(count_)); }
+  std::span<double const> opened() const { return std::span(opened_).first(static_cast<std::size_t>(count_)); }
+  /// Forces of positions are added here after compute_forces: owned entries are used.
+  std::span<Wrench> internal() { return std::span(wrench_).first(static_cast<std::size_t>(count_)); }
+  /// Rows of `width` doubles per particle (count() rows), from owners to ghosts. Collective among neighbours.
+  void exchange_rows(std::span<double> rows, std::size_t width) { halo_.exchange_rows(comm_, rows, width); }
+
+  /// Makes room for damage; without it every link is whole for ever.
+  void allow_damage() { intact_.resize(links_.count(), 1.0); }
+  bool damageable() const { return !intact_.empty(); }
+  /// 1 - d of a link: 1 whole, 0 broken.
+  Real intact(std::size_t link) const { return intact_.empty() ? 1 : intact_[link]; }
+  /// Leaves the share `intact` = 1 - d of the stiffness, area and bending of a link; the rest of its face becomes free
+  /// on both sides. Every rank that has the link must do the same. Forces follow at the next compute_forces.
+  /// Source: theory/solid.md section 14.  Expects: allow_damage.
+  void weaken(std::size_t link, Real intact);
+  /// Does a link that is not broken join two particles? Expects: one of them owned or in the first layer of ghosts.
+  bool linked(GlobalId a, GlobalId b) const;
+
   /// Everything that changes in a step.
   struct Saved {
     std::vector<Pose> pose;
     std::vector<Motion> motion;
     std::vector<HalfVelocity> half;
     std::vector<Wrench> wrench, load;
-    std::vector<double> opened, pressure;
+    std::vector<double> opened, pressure, intact;
     Reactions reactions;
   };
   enum class Restore { state, state_and_load };
@@ -115,6 +141,9 @@ class Solid {
   static constexpr int row_size = 31;
   std::span<GlobalId const> owned_ids() const { return std::span(ids_).first(static_cast<std::size_t>(owned_)); }
   std::vector<double> pack() const;  ///< rows of owned particles, in the order of owned_ids
+  /// Links whose first end is owned, by mesh, and what is left of them.
+  std::vector<GlobalId> owned_link_ids() const;
+  std::vector<double> pack_intact() const;
   /// Takes the rows of particles present here (owned or ghost) out of `rows`; others are ignored. Strains and forces
   /// follow from exchange_pose and compute_forces, to the same bits.
   void unpack(std::span<GlobalId const> ids, std::span<double const> rows);
@@ -123,6 +152,8 @@ class Solid {
   void choose_particles(Surface const* surface);
   void store_particles();
   void store_links();
+  LinkRest<double> rest_of(Link const& link) const;
+  void set_bulk(GlobalId particle);
   template <bool with_kick, bool with_drift>
   void advance(Real dt);
   void book_reactions(Real dt);
@@ -157,7 +188,8 @@ class Solid {
   std::vector<std::size_t> clamps_;     // links to the wall whose particle is owned
 
   LinkStore links_;
-  bool volumetric_ = false;  // some lambda is not zero
+  std::vector<double> intact_;  // 1 - d of the links; empty without damage
+  bool volumetric_ = false;     // some lambda is not zero
   struct LoadedFace {
     Index particle;
     Vec3 force, arm;  // body frame

@@ -10,6 +10,7 @@ namespace {
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 constexpr std::uint32_t particle_kind = 0x50415254;  // "PART"
+constexpr std::uint32_t link_kind = 0x4c494e4b;      // "LINK"
 
 Mat3 symmetric_matrix(std::array<double, 8> const& t) {
   return {{Vec3{t[0], t[3], t[4]}, Vec3{t[3], t[1], t[5]}, Vec3{t[4], t[5], t[2]}}};
@@ -27,6 +28,7 @@ void Solid::save(Saved& to) const {
   to.load = load_;
   to.opened = opened_;
   to.pressure = pressure_;
+  to.intact = intact_;
   to.reactions = reactions_;
 }
 
@@ -38,6 +40,8 @@ void Solid::restore(Saved const& from, Restore what) {
   opened_ = from.opened;
   pressure_ = from.pressure;
   reactions_ = from.reactions;
+  for (std::size_t k = 0; k < intact_.size(); ++k)
+    if (intact_[k] != from.intact[k]) weaken(k, from.intact[k]);
   if (what == Restore::state_and_load) load_ = from.load;
 }
 
@@ -94,6 +98,9 @@ void Solid::digest(parallel::Digest& to) const {
     bits = {p.x.x, p.x.y, p.x.z, p.q.w, p.q.v.x, p.q.v.y, p.q.v.z, m.v.x, m.v.y, m.v.z, m.spin.x, m.spin.y, m.spin.z};
     to.add(particle_kind, id(l), bits);
   }
+  for (std::size_t k = 0; k < intact_.size(); ++k)
+    if (links_.end_i(k) < owned_ && intact_[k] != 1)
+      to.add(link_kind, static_cast<GlobalId>(mesh_link_[k]), std::span(&intact_[k], 1));
 }
 
 std::vector<double> Solid::pack() const {

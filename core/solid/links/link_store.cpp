@@ -88,6 +88,10 @@ LinkRest<double> LinkStore::rest(std::size_t link) const {
   return r;
 }
 
+void LinkStore::set_rest(std::size_t link, LinkRest<double> const& rest) {
+  for_each_field(rest, [&](std::size_t f, double value) { blocks_[link / lanes].rest[f][link % lanes] = value; });
+}
+
 void LinkStore::add_opened_volume(std::span<Pose const> pose, std::span<double> opened) const {
   for (std::size_t at = 0; at < blocks_.size(); ++at) {
     LinkBlock const& b = blocks_[at];

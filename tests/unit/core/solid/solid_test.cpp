@@ -28,6 +28,40 @@ TEST(Solid, KeepsMomentumAngularMomentumAndEnergy) {
   EXPECT_NEAR(body.energy() / energy, 1, 2e-3);
 }
 
+TEST(Solid, BrokenLinksLowerTheEnergyAndComeBackWithARestore) {
+  for (Real const nu : {-0.9, 0.0, 0.45}) {
+    SolidConfig config = testing::one_material(1, 1, nu);
+    config.body.push_back(testing::box({0, 0, 0}, {3, 3, 2}, {3, 3, 2}));
+    Lone body(config);
+    body.solid.allow_damage();
+    testing::Random random(7);
+    for (Pose& p : body.solid.pose()) p.x += 0.1 * random.vector();
+    body.solid.compute_forces();
+    Solid::Saved whole;
+    body.solid.save(whole);
+    auto const elastic = [&] { return body.measure().value(Measures::elastic); };
+    Real const before = elastic();
+    Real last = before;
+    for (Real const intact : {0.6, 0.0})
+      for (std::size_t k : {std::size_t{3}, std::size_t{11}, std::size_t{20}}) {
+        body.solid.weaken(k, intact);
+        body.solid.compute_forces();
+        EXPECT_LT(elastic(), last) << "nu " << nu << ", link " << k;
+        last = elastic();
+      }
+    Link const& broken = body.mesh.links[body.solid.mesh_link(11)];
+    EXPECT_FALSE(body.solid.linked(broken.i, broken.j));
+    Vec3 sum{};
+    for (Wrench const& w : body.solid.internal()) sum += w.force;
+    EXPECT_NEAR(norm(sum), 0, 1e-14);
+    body.solid.restore(whole);
+    body.solid.compute_forces();
+    EXPECT_EQ(elastic(), before);
+    EXPECT_TRUE(std::equal(whole.wrench.begin(), whole.wrench.end() - 1, body.solid.internal().begin()));
+    EXPECT_TRUE(body.solid.linked(broken.i, broken.j));
+  }
+}
+
 TEST(Solid, KickAndDriftInOnePassGivesTheSameBits) {
   SolidConfig config = testing::one_material(1, 1, 0.3);
   config.body.push_back(testing::box({0, 0, 0}, {3, 2, 1}, {3, 2, 1}));
