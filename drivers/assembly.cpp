@@ -167,7 +167,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
                 "fluid.products: cut cells do not carry products yet; use charges of model \"balloon\" beside solids.");
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
-    w.surface = std::make_unique<solid::Surface>(*w.mesh);
+    w.surface = std::make_shared<solid::Surface>(*w.mesh);
   }
   if (coupled) require_clear_periodic_sides(scene, *grid, *w.mesh, *w.surface);
   if (coupled) require_gauges_in_the_gas(scene, *grid, *w.mesh);
@@ -190,7 +190,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (coupled) {
     fluid::GasState const& air = scene.fluid->ambient;
     w.cut_cells =
-        std::make_unique<coupling::CutCells>(*scene.coupling->cut_cells, *w.flow, *w.solid, *w.surface,
+        std::make_unique<coupling::CutCells>(*scene.coupling->cut_cells, *w.flow, *w.solid, w.surface,
                                              w.flow->gas().conserved(air.density, air.velocity, air.pressure), comm);
   }
   if (w.euler && w.cut_cells) w.euler->set_fluid_volume(w.cut_cells->fluid_volumes());

@@ -22,7 +22,7 @@ Mat3 inverse(Mat3 const& m) {
 }  // namespace
 
 Solid::Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner_of_particle, parallel::Comm& comm,
-             int dimension, Surface const* surface)
+             int dimension, Surface const* surface, Opens opens)
     : mesh_(mesh),
       comm_(comm),
       dimension_(dimension),
@@ -31,13 +31,13 @@ Solid::Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner
       owner_(std::move(owner_of_particle)) {
   if (gravity_)
     for (int d = dimension; d < 3; ++d) (*gravity_)[d] = 0;
-  choose_particles(surface);
+  choose_particles(surface, opens);
   store_particles();
   store_links();
   compute_forces();
 }
 
-void Solid::choose_particles(Surface const* surface) {
+void Solid::choose_particles(Surface const* surface, Opens opens) {
   int const me = comm_.rank();
   // 1: owned, 2: first layer (its strains are computed here), 3: second layer and vertex groups (poses only).
   std::vector<char> layer(at(mesh_.size()), 0);
@@ -74,6 +74,17 @@ void Solid::choose_particles(Surface const* surface) {
           ghosts.push_back(c.particle);
         }
     }
+  if (surface && opens == Opens::anywhere) {
+    auto const neighbours = Surface::neighbours(mesh_);
+    for (GlobalId p = 0; p < mesh_.size(); ++p) {
+      if (owner(p) != me) continue;
+      for (GlobalId const q : neighbours[at(p)])
+        if (!layer[at(q)]) {
+          layer[at(q)] = 3;
+          ghosts.push_back(q);
+        }
+    }
+  }
   std::sort(ghosts.begin(), ghosts.end());
   ids_.insert(ids_.end(), ghosts.begin(), ghosts.end());
   count_ = static_cast<Index>(ids_.size());

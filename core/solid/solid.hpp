@@ -36,10 +36,12 @@ struct StableStep {
 /// order. Bits: the state of owned particles does not depend on how particles are dealt to ranks.
 class Solid {
  public:
+  /// May links break, so that particles inside come to share vertices of the boundary?
+  enum class Opens { never, anywhere };
   /// Collective. `mesh` must outlive the solid. Ghosts: two layers of linked neighbours and, with a surface, every
   /// particle that shares a boundary vertex with an owned one.
   Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner_of_particle, parallel::Comm& comm,
-        int dimension, Surface const* surface = nullptr);
+        int dimension, Surface const* surface = nullptr, Opens opens = Opens::never);
 
   Mesh const& mesh() const { return mesh_; }
   Index owned() const { return owned_; }
@@ -149,7 +151,7 @@ class Solid {
   void unpack(std::span<GlobalId const> ids, std::span<double const> rows);
 
  private:
-  void choose_particles(Surface const* surface);
+  void choose_particles(Surface const* surface, Opens opens);
   void store_particles();
   void store_links();
   LinkRest<double> rest_of(Link const& link) const;
