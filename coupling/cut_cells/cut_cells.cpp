@@ -240,6 +240,10 @@ void CutCells::mix() {
     cell.id = ids[n];
     cell.cell = cell_from_id(grid, ids[n]);
     cell.volume = next_.volume(cell.cell);
+    cell.volume_before = record_.volume(cell.cell);
+    for (int d = 0; d < grid.dimension; ++d)
+      for (int side = 0; side < 2; ++side)
+        cell.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] = next_.aperture(cell.cell, d, side);
     cell.mine = owned(cell.cell);
     while (next_content < contents_.size() && contents_[next_content].cell < cell.id) ++next_content;
     if (next_content < contents_.size() && contents_[next_content].cell == cell.id) {
@@ -290,8 +294,14 @@ void CutCells::mix() {
       }
   }
 
-  std::string const trouble = merge_small_cells(next_, config_.small_cell, cells);
-  if (!trouble.empty() && health_.good) health_ = {false, trouble};
+  Merging merging =
+      merge_small_cells(grid, config_.small_cell, comm_.size() > 1 ? Sight::halo : Sight::everything, cells);
+  if (comm_.size() > 1) {
+    std::uint64_t outgrown = merging.outgrown ? 1 : 0;
+    comm_.bit_or(std::span(&outgrown, 1));
+    if (outgrown > 0) merging = merge_everywhere(cells);
+  }
+  if (!merging.trouble.empty() && health_.good) health_ = {false, merging.trouble};
   kept_.clear();
   for (NearCell const& cell : cells) {
     if (!cell.mine || !(cell.rewritten || cell.grouped)) continue;
@@ -312,6 +322,25 @@ void CutCells::mix() {
     CellIndex const first = block.first();
     block.store(cell.cell[0] - first[0], cell.cell[1] - first[1], cell.cell[2] - first[2], u);
   }
+}
+
+Merging CutCells::merge_everywhere(std::vector<NearCell>& cells) {
+  // A group is longer than the halo is wide, as along a closing crack: every rank merges the cells of all.
+  parallel::Bytes bytes;
+  for (NearCell const& cell : cells)
+    if (cell.mine) parallel::put(bytes, cell);
+  std::vector<NearCell> all;
+  std::vector<parallel::Bytes> const gathered = comm_.all_gather(bytes);
+  for (std::size_t rank = 0; rank < gathered.size(); ++rank)
+    for (std::span<std::byte const> in(gathered[rank]); !in.empty();) {
+      all.push_back(parallel::take<NearCell>(in));
+      all.back().mine = static_cast<int>(rank) == comm_.rank();
+    }
+  std::sort(all.begin(), all.end(), [](NearCell const& a, NearCell const& b) { return a.id < b.id; });
+  Merging const merging = merge_small_cells(flow_.grid(), config_.small_cell, Sight::everything, all);
+  std::erase_if(all, [](NearCell const& c) { return !c.mine; });
+  cells = std::move(all);
+  return merging;
 }
 
 void CutCells::fill() {

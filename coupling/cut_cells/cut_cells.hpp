@@ -6,6 +6,7 @@
 
 #include "core/model/plan.hpp"
 #include "coupling/coupling_config.hpp"
+#include "coupling/cut_cells/mixing.hpp"
 #include "coupling/cut_cells/viscous_wall.hpp"
 #include "coupling/cut_cells/wall_surface.hpp"
 #include "coupling/cut_cells/wall_sweeper.hpp"
@@ -57,6 +58,8 @@ class CutCells : public Effect {
   void fill();
   /// Collective. The boundary opens where links broke in this step.
   void open_cracks();
+  /// Collective. Merges with the cells of all ranks in sight; leaves those of this rank.
+  Merging merge_everywhere(std::vector<NearCell>& cells);
   // pieces of them
   void wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces);
   void transfers();
