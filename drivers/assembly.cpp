@@ -13,7 +13,8 @@ namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
   static std::vector<std::string> const names{"fluid.euler", "fluid.viscosity", "fluid.gravity",      "solid.motion",
-                                              "solid.links", "solid.gravity",   "coupling.cut_cells", "output.gauges"};
+                                              "solid.links", "solid.gravity",   "solid.fracture",
+                                              "coupling.cut_cells", "output.gauges"};
   return names;
 }
 
@@ -162,6 +163,10 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
       scene_error(scene.fluid->euler->at, std::string("fluid.euler.splitting = \"merged\" has no whole steps, which ") +
                                               other + " acts between: take \"pair\" with it");
   }
+  if (coupled && scene.solid->fracture)
+    scene_error(scene.solid->fracture->at,
+                "solid.fracture: the surface that the gas wets does not split along broken links yet. Leave out "
+                "coupling.cut_cells and load the bodies otherwise, or leave out fracture.");
   if (coupled && scene.fluid->products)
     scene_error(scene.fluid->products->at,
                 "fluid.products: cut cells do not carry products yet; use charges of model \"balloon\" beside solids.");

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/errors.hpp"
+#include "core/solid/fracture/fracture.hpp"
 #include "parallel/archive.hpp"
 
 namespace brisance::solid {
@@ -86,8 +88,13 @@ void Dynamics::start() {
   if (config_.links) solid_.compute_forces();
 }
 
-std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const&, Solid&, parallel::Comm&) {
+std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm& comm) {
   std::vector<std::unique_ptr<Effect>> effects;
+  if (config.fracture) {
+    require(config.links.has_value(), config.fracture->at,
+            "solid.fracture breaks links, and the scene has none: add links = {} to [solid]");
+    effects.push_back(std::make_unique<Fracture>(*config.fracture, solid, comm));
+  }
   return effects;
 }
 

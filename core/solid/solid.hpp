@@ -106,6 +106,14 @@ class Solid {
   /// on both sides. Every rank that has the link must do the same. Forces follow at the next compute_forces.
   /// Source: theory/solid.md section 14.  Expects: allow_damage.
   void weaken(std::size_t link, Real intact);
+  std::size_t broken() const { return broken_; }  ///< links of this rank of which nothing is left
+  /// Gaps of the links of this rank at the current poses; those of damaged links are of what is left of them.
+  void measure_gaps(std::vector<GapBlock>& gaps) const { links_.measure_gaps(pose_, gaps); }
+  /// Ends of a link; the wall is at rest at the origin.
+  LinkEnds<double> link_ends(std::size_t link) const {
+    return ends_of(pose_[static_cast<std::size_t>(links_.end_i(link))],
+                   pose_[static_cast<std::size_t>(links_.end_j(link))]);
+  }
   /// Does a link that is not broken join two particles? Expects: one of them owned or in the first layer of ghosts.
   bool linked(GlobalId a, GlobalId b) const;
 
@@ -130,6 +138,14 @@ class Solid {
   /// The bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
   StableStep link_limit() const;
 
+  // The parts of the energy, J: of a particle with its rotation, of its volumetric strain (owned and first layer, at the
+  // last compute_forces), and of a link.
+  Real kinetic_energy(Index particle) const;
+  Real volumetric_energy(Index particle) const {
+    auto const at = static_cast<std::size_t>(particle);
+    return 0.5 * pressure_[at] * opened_[at];
+  }
+  Real link_energy(std::size_t link) const { return solid::link_energy(links_.rest(link), link_ends(link)); }
   /// Adds the sums over owned particles and links to `to`; add over ranks with Comm::sum.
   void measure(Measures& to) const;
   /// Impulse and work of the reactions of fixed, prescribed and clamped parts since the last call; resets them. This
@@ -191,6 +207,7 @@ class Solid {
 
   LinkStore links_;
   std::vector<double> intact_;  // 1 - d of the links; empty without damage
+  std::size_t broken_ = 0;
   bool volumetric_ = false;     // some lambda is not zero
   struct LoadedFace {
     Index particle;

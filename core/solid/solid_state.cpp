@@ -52,15 +52,20 @@ std::size_t Solid::bytes() const {
 
 std::size_t Solid::link_bytes() const { return links_.bytes(); }
 
+Real Solid::kinetic_energy(Index particle) const {
+  Motion const& m = motion_[at(particle)];
+  Vec3 const body_spin = rotate(conjugate(pose_[at(particle)].q), m.spin);
+  Vec3 const rate = symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].inverse) * body_spin;
+  return 0.5 * (dot(mesh_.particle(id(particle)).mass * m.v, m.v) + dot(body_spin, rate));
+}
+
 void Solid::measure(Measures& to) const {
   for (Index l = 0; l < owned_; ++l) {
     Real const mass = mesh_.particle(id(l)).mass;
     Motion const& m = motion_[at(l)];
     Vec3 const momentum = mass * m.v;
-    Vec3 const body_spin = rotate(conjugate(pose_[at(l)].q), m.spin);
-    Vec3 const rate = symmetric_matrix(inertia_[at(inertia_of_[at(l)])].inverse) * body_spin;
-    to.add(Measures::kinetic, 0.5 * (dot(momentum, m.v) + dot(body_spin, rate)));
-    to.add(Measures::elastic, 0.5 * pressure_[at(l)] * opened_[at(l)]);
+    to.add(Measures::kinetic, kinetic_energy(l));
+    to.add(Measures::elastic, volumetric_energy(l));
     to.add(Measures::mass, mass);
     to.add(Measures::momentum, momentum);
     to.add(Measures::angular, cross(pose_[at(l)].x, momentum) + m.spin);
@@ -71,9 +76,7 @@ void Solid::measure(Measures& to) const {
     }
   }
   for (std::size_t k = 0; k < links_.count(); ++k) {
-    Index const i = links_.end_i(k), j = links_.end_j(k);
-    if (i >= owned_) continue;
-    to.add(Measures::elastic, link_energy(links_.rest(k), ends_of(pose_[at(i)], pose_[at(j)])));
+    if (links_.end_i(k) < owned_) to.add(Measures::elastic, link_energy(k));
   }
   for (LoadedFace const& face : loaded_)
     if (face.particle < owned_) to.add(Measures::elastic, -face.stored);

@@ -70,6 +70,18 @@ inline LinkWrench<V> link_wrench(LinkRest<V> const& rest, LinkEnds<V> const& at,
   return out;
 }
 
+/// What criteria need of a gap: gap . S n (m3), |gap|^2 (m2), energy of bending and twisting (J).
+template <class V>
+struct LinkGap {
+  V opened, squared, flexure;
+};
+template <class V>
+inline LinkGap<V> link_gap(LinkRest<V> const& rest, LinkEnds<V> const& at) {
+  LinkFrame<V> const frame(rest, at);
+  Triple<V> const q = cross_add(at.q_j.v, at.q_i.v, multiply_add(at.q_i.w, at.q_j.v, V(-1.0) * (at.q_j.w * at.q_i.v)));
+  return {dot(frame.gap, frame.area), dot(frame.gap, frame.gap), dot(q, symmetric_times(rest.bending, q))};
+}
+
 /// Shear, compression, bending and twisting energy of a link, J; the volumetric part belongs to the particles.
 template <class V>
 inline V link_energy(LinkRest<V> const& rest, LinkEnds<V> const& at) {

@@ -133,6 +133,19 @@ void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> p
   }
 }
 
+void LinkStore::measure_gaps(std::span<Pose const> pose, std::vector<GapBlock>& gaps) const {
+  gaps.resize(blocks_.size());
+  for (std::size_t at = 0; at < blocks_.size(); ++at) {
+    LinkBlock const& b = blocks_[at];
+    if (at + ahead < blocks_.size())
+      for (Index j : blocks_[at + ahead].j) fetch(&pose[static_cast<std::size_t>(j)]);
+    LinkGap<Lanes> const gap = link_gap(read_rest(b), read_ends(pose.data(), b));
+    gap.opened.store_aligned(gaps[at].opened.data());
+    gap.squared.store_aligned(gaps[at].squared.data());
+    gap.flexure.store_aligned(gaps[at].flexure.data());
+  }
+}
+
 LinkEnds<double> ends_of(Pose const& i, Pose const& j) {
   auto triple = [](Vec3 const& v) { return Triple<double>{v.x, v.y, v.z}; };
   return {triple(i.x), triple(j.x), {i.q.w, triple(i.q.v)}, {j.q.w, triple(j.q.v)}};

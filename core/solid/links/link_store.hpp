@@ -14,6 +14,11 @@ struct alignas(64) LinkBlock {
   std::array<std::array<double, lanes>, 17> rest{};
 };
 
+/// Gaps of four links, as LinkGap has them.
+struct alignas(32) GapBlock {
+  std::array<double, lanes> opened, squared, flexure;
+};
+
 class LinkStore {
  public:
   /// Adds a link at the end; add them in global order.
@@ -29,6 +34,8 @@ class LinkStore {
   void add_opened_volume(std::span<Pose const> pose, std::span<double> opened) const;
   /// Adds the forces and torques of all links to both ends. `pressure`: lambda epsilon, Pa.
   void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench) const;
+  /// The gaps of all links, four to a block in the order of the store; resizes `gaps`.
+  void measure_gaps(std::span<Pose const> pose, std::vector<GapBlock>& gaps) const;
 
  private:
   // Every particle receives its links one after the other in the order of the store, which is the global order: the

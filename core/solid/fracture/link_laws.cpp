@@ -1,0 +1,112 @@
+#include "core/solid/fracture/link_laws.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/base/errors.hpp"
+
+namespace brisance::solid {
+namespace {
+
+template <class Named>
+std::vector<std::string> names_of(std::vector<Named> const& all) {
+  std::vector<std::string> names;
+  for (Named const& one : all) names.push_back(one.name);
+  return names;
+}
+
+Index place_of(std::vector<std::string> const& names, std::string const& name, char const* what, Location const& at) {
+  auto const found = std::find(names.begin(), names.end(), name);
+  require(found != names.end(), at,
+          std::string("solid.fracture.law: there is no ") + what + " \"" + name + "\"; the scene has " + joined(names));
+  return static_cast<Index>(found - names.begin());
+}
+
+/// Does a law fit a link? Names looked up once.
+class Selector {
+ public:
+  Selector(LawConfig const& law, Mesh const& mesh) : clamps_(law.clamps) {
+    auto const bodies = names_of(mesh.bodies), materials = names_of(mesh.materials);
+    if (law.body) body_ = place_of(bodies, *law.body, "body", law.at);
+    if (law.material) material_ = place_of(materials, *law.material, "material", law.at);
+    if (law.between.empty()) return;
+    require(law.between.size() == 2 && law.between[0] != law.between[1], law.at,
+            "solid.fracture.law.between wants two different materials");
+    for (std::size_t n = 0; n < 2; ++n) pair_[n] = place_of(materials, law.between[n], "material", law.at);
+  }
+  bool operator()(Mesh const& mesh, Link const& link) const {
+    bool const wall = link.j == Link::wall;
+    if (wall && !clamps_) return false;
+    Particle const &i = mesh.particle(link.i), &j = mesh.particle(wall ? link.i : link.j);
+    if (body_ && (i.body != *body_ || j.body != *body_)) return false;
+    if (material_ && (i.material != *material_ || j.material != *material_)) return false;
+    return pair_[0] < 0 || (i.material == pair_[0] && j.material == pair_[1]) ||
+           (i.material == pair_[1] && j.material == pair_[0]);
+  }
+
+ private:
+  bool clamps_;
+  std::optional<Index> body_, material_;
+  std::array<Index, 2> pair_{-1, -1};
+};
+
+Real scatter_of(LawConfig const& law, Mesh const& mesh, Link const& link) {
+  if (!law.weibull) return 1;
+  bool const wall = link.j == Link::wall;
+  Section const s = section_of(mesh, link);
+  return law.weibull->factor(link.i, link.j, wall ? link.face_i : 0, s.area * s.length);
+}
+
+/// A link that stores more than its toughness when it reaches its strength cannot soften.
+void require_room_to_soften(LawConfig const& law, Mesh const& mesh, Link const& link) {
+  Real const longest = law.cohesive->longest(mesh.material(link.i).young_modulus, scatter_of(law, mesh, link));
+  if (link.rest_length < longest) return;
+  char text[400];
+  Vec3 const x = mesh.particle(link.i).centre;
+  std::snprintf(text, sizeof text,
+                "solid.fracture.law.cohesive: the link of particles %lld and %lld at (%.4g, %.4g, %.4g) m is %.3g m long, "
+                "but at its strength it stores more than its toughness from 2 E G_c / f_t^2 = %.3g m on. Take smaller "
+                "particles, a lower strength, or the criterion energy.",
+                static_cast<long long>(link.i), static_cast<long long>(link.j), x.x, x.y, x.z, link.rest_length,
+                longest);
+  scene_error(law.at, text);
+}
+
+}  // namespace
+
+Section section_of(Mesh const& mesh, Link const& link) {
+  Real const area = mesh.face(link.i, link.face_i).area;
+  return {area, link.rest_length, link.weight, link.stiffness * link.rest_length / area};
+}
+
+std::vector<LawGroup> assign_laws(FractureConfig const& config, Solid const& solid) {
+  Mesh const& mesh = solid.mesh();
+  require(!config.law.empty(), config.at, "solid.fracture has no law: add [[solid.fracture.law]] with a criterion");
+  std::vector<LawGroup> groups;
+  std::vector<Selector> selectors;
+  for (LawConfig const& law : config.law) {
+    groups.push_back({law.criterion(), {}, {}, {}});
+    selectors.emplace_back(law, mesh);
+  }
+  auto const law_of = [&](Link const& link) {
+    std::size_t law = groups.size();
+    while (law > 0 && !selectors[law - 1](mesh, link)) --law;
+    return law;  // 0: none, else one more than its place
+  };
+  for (Link const& link : mesh.links)
+    if (std::size_t const law = law_of(link); law > 0 && config.law[law - 1].cohesive)
+      require_room_to_soften(config.law[law - 1], mesh, link);
+  for (std::size_t k = 0; k < solid.links(); ++k) {
+    Link const& link = mesh.links[solid.mesh_link(k)];
+    std::size_t const law = law_of(link);
+    if (law == 0) continue;
+    LawGroup& group = groups[law - 1];
+    group.links.push_back(k);
+    if (config.law[law - 1].weibull) group.scatter.push_back(scatter_of(config.law[law - 1], mesh, link));
+  }
+  for (LawGroup& group : groups)
+    if (std::holds_alternative<Cohesive>(group.criterion)) group.history.resize(group.links.size());
+  return groups;
+}
+
+}  // namespace brisance::solid

@@ -1,0 +1,26 @@
+// Which link follows which law.
+#pragma once
+#include <vector>
+
+#include "core/solid/fracture/fracture_config.hpp"
+#include "core/solid/solid.hpp"
+
+namespace brisance::solid {
+
+/// The links of this rank that follow one law, in global order.
+struct LawGroup {
+  Criterion criterion;
+  std::vector<std::size_t> links;        ///< places among the links of the rank
+  std::vector<Real> scatter;             ///< strength of each over the mean; empty: 1
+  std::vector<CohesiveHistory> history;  ///< of each, for laws that soften
+};
+
+/// The constants of a link of the mesh.
+Section section_of(Mesh const& mesh, Link const& link);
+
+/// Groups by law, in the order of the scene.
+/// Errors: scene errors, the same on every rank: unknown body or material, no or several criteria, a cohesive link
+/// longer than it can be.
+std::vector<LawGroup> assign_laws(FractureConfig const& config, Solid const& solid);
+
+}  // namespace brisance::solid
