@@ -56,10 +56,11 @@ struct Cohesive {
   }
 
   /// Longest link that can soften: beyond it the energy stored at the strength exceeds the toughness, m.
-  Real longest(Real young_modulus, Real scatter) const {
-    Real const strength = scatter * tensile_strength;
-    return 2 * young_modulus * toughness / (strength * strength);
+  Real longest(Real young_modulus) const {
+    return 2 * young_modulus * toughness / (tensile_strength * tensile_strength);
   }
+  /// Largest strength over the mean that a link of this length can soften from.
+  Real largest_scatter(Real young_modulus, Real length) const { return std::sqrt(longest(young_modulus) / length); }
 };
 
 }  // namespace brisance::solid

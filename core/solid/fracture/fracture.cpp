@@ -133,7 +133,31 @@ void Fracture::join(Plan& plan) {
     dissipated_ = {};
     links_broken_ = 0;
   });
+  plan.table({"fragments.csv", census_header(), [this](Clock const& c) {
+                std::string rows;
+                for (FragmentFigures const& fragment : take_census(solid_, *fragments_, comm_))
+                  rows += census_row(fragment, solid_.mesh(), c.step, c.time);
+                return rows;
+              }});
+  plan.particle_field("fragment", [this](std::span<double> to) {
+    for (std::size_t p = 0; p < to.size(); ++p) to[p] = static_cast<double>(fragments_->label()[p]);
+  });
+  plan.particle_field("damage", [this](std::span<double> to) { damage_of_particles(to); });
   keep(plan);
+}
+
+void Fracture::damage_of_particles(std::span<double> to) const {
+  // Of the face area that was linked.
+  std::vector<Real> linked(to.size(), 0);
+  std::fill(to.begin(), to.end(), 0.0);
+  for (std::size_t k = 0; k < solid_.links(); ++k)
+    for (Index const end : {solid_.link_store().end_i(k), solid_.link_store().end_j(k)}) {
+      if (at(end) >= to.size()) continue;
+      linked[at(end)] += sections_[k].area;
+      to[at(end)] += (1 - solid_.intact(k)) * sections_[k].area;
+    }
+  for (std::size_t p = 0; p < to.size(); ++p)
+    if (linked[p] > 0) to[p] /= linked[p];
 }
 
 }  // namespace brisance::solid

@@ -39,6 +39,8 @@ class Fracture : public Effect {
   void judge_group(LawGroup& group, Law const& law);
   LinkState state_of(std::size_t link, Wants const& wants) const;
   void add_energy(parallel::ExactSum& to, Real sign) const;
+  /// Share of the linked faces of each owned particle that is free now, 0 to 1.
+  void damage_of_particles(std::span<double> to) const;
   void keep(Plan& plan);
   std::vector<double> pack_history() const;
   void unpack_history(std::span<double const> rows);

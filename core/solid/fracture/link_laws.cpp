@@ -54,12 +54,14 @@ Real scatter_of(LawConfig const& law, Mesh const& mesh, Link const& link) {
   if (!law.weibull) return 1;
   bool const wall = link.j == Link::wall;
   Section const s = section_of(mesh, link);
-  return law.weibull->factor(link.i, link.j, wall ? link.face_i : 0, s.area * s.length);
+  Real const factor = law.weibull->factor(link.i, link.j, wall ? link.face_i : 0, s.area * s.length);
+  // The strongest of many softening links still break at their toughness, as brittle ones do.
+  return law.cohesive ? min(factor, law.cohesive->largest_scatter(mesh.material(link.i).young_modulus, s.length)) : factor;
 }
 
 /// A link that stores more than its toughness when it reaches its strength cannot soften.
 void require_room_to_soften(LawConfig const& law, Mesh const& mesh, Link const& link) {
-  Real const longest = law.cohesive->longest(mesh.material(link.i).young_modulus, scatter_of(law, mesh, link));
+  Real const longest = law.cohesive->longest(mesh.material(link.i).young_modulus);
   if (link.rest_length < longest) return;
   char text[400];
   Vec3 const x = mesh.particle(link.i).centre;
