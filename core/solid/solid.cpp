@@ -185,7 +185,10 @@ void Solid::compute_forces() {
     for (std::size_t p = 0; p < n; ++p) pressure_[p] = bulk_[p] * opened_[p];
   }
   std::fill(wrench_.begin(), wrench_.end(), Wrench{});
-  links_.add_wrench(pose_, pressure_, wrench_);
+  if (damageable())
+    links_.add_wrench(pose_, pressure_, wrench_, gaps_);
+  else
+    links_.add_wrench(pose_, pressure_, wrench_);
   for (LoadedFace const& face : loaded_) {
     Wrench& w = wrench_[at(face.particle)];
     Quaternion const& q = pose_[at(face.particle)].q;

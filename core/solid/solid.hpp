@@ -98,7 +98,10 @@ class Solid {
   void exchange_rows(std::span<double> rows, std::size_t width) { halo_.exchange_rows(comm_, rows, width); }
 
   /// Makes room for damage; without it every link is whole for ever.
-  void allow_damage() { intact_.resize(links_.count(), 1.0); }
+  void allow_damage() {
+    intact_.resize(links_.count(), 1.0);
+    gaps_.resize(links_.blocks());
+  }
   bool damageable() const { return !intact_.empty(); }
   /// 1 - d of a link: 1 whole, 0 broken.
   Real intact(std::size_t link) const { return intact_.empty() ? 1 : intact_[link]; }
@@ -107,8 +110,9 @@ class Solid {
   /// Source: theory/solid.md section 14.  Expects: allow_damage.
   void weaken(std::size_t link, Real intact);
   std::size_t broken() const { return broken_; }  ///< links of this rank of which nothing is left
-  /// Gaps of the links of this rank at the current poses; those of damaged links are of what is left of them.
-  void measure_gaps(std::vector<GapBlock>& gaps) const { links_.measure_gaps(pose_, gaps); }
+  /// Gaps of the links of this rank, four to a block, at the last compute_forces; `opened` and `flexure` are those of
+  /// what is left of a link.  Expects: allow_damage.
+  std::span<GapBlock const> gaps() const { return gaps_; }
   /// Ends of a link; the wall is at rest at the origin.
   LinkEnds<double> link_ends(std::size_t link) const {
     return ends_of(pose_[static_cast<std::size_t>(links_.end_i(link))],
@@ -208,6 +212,7 @@ class Solid {
   LinkStore links_;
   std::vector<double> intact_;  // 1 - d of the links; empty without damage
   std::size_t broken_ = 0;
+  std::vector<GapBlock> gaps_;  // empty without damage
   bool volumetric_ = false;     // some lambda is not zero
   struct LoadedFace {
     Index particle;

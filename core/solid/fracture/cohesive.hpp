@@ -35,6 +35,7 @@ struct Cohesive {
 
   Wants wants() const { return {true, false, false, false}; }
 
+  Real safe_traction(Real scatter, Real) const { return scatter * tensile_strength * min(1, beta); }
   /// 1 - d of the link after this state; updates the history.
   Real intact(LinkState const& s, Real scatter, CohesiveHistory& history) const {
     Real const open = std::max(s.opening, 0.0), slip = s.slip / beta;

@@ -18,6 +18,7 @@ struct Elongation {
 
   Wants wants() const { return {false, false, false, true}; }
   /// `scatter`: strength of this link over the mean.
+  Real safe_traction(Real, Real) const { return 0; }  // it looks at poles, not at gaps
   bool fails(LinkState const& s, Real scatter) const { return s.stretch >= scatter * at_break; }
 };
 

@@ -23,6 +23,10 @@ struct EnergyRelease {
   static void keys(Keys<EnergyRelease>& k);
 
   Wants wants() const { return {true, false, false, false}; }
+  /// Y / S is at most t^2 / 2 k + e.
+  Real safe_traction(Real scatter, Real stiffness) const {
+    return scatter * std::sqrt(2 * tip_share * min(toughness, shear_toughness.value_or(toughness)) * stiffness);
+  }
   /// Strength goes with the root of the toughness.
   bool fails(LinkState const& s, Real scatter) const {
     Release const g = driving_release(s);

@@ -1,6 +1,7 @@
 #include "core/solid/fracture/fracture.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/solid/fracture/link_motion.hpp"
 
@@ -27,7 +28,7 @@ Fracture::Fracture(FractureConfig const& config, Solid& solid, parallel::Comm& c
 }
 
 LinkState Fracture::state_of(std::size_t k, Wants const& wants) const {
-  GapBlock const& gap = gaps_[k / lanes];
+  GapBlock const& gap = solid_.gaps()[k / lanes];
   std::size_t const lane = k % lanes;
   Index const i = solid_.link_store().end_i(k), j = solid_.link_store().end_j(k);
   bool const wall = j == solid_.count();
@@ -43,10 +44,16 @@ LinkState Fracture::state_of(std::size_t k, Wants const& wants) const {
 template <class Law>
 void Fracture::judge_group(LawGroup& group, Law const& law) {
   Wants const wants = law.wants();
+  auto const gaps = solid_.gaps();
   for (std::size_t n = 0; n < group.links.size(); ++n) {
     std::size_t const k = group.links[n];
+    GapBlock const& gap = gaps[k / lanes];
+    Watch const& w = group.watch[n];
     Real const intact = solid_.intact(k);
-    if (intact == 0) continue;
+    Real const pressure = max(std::abs(pressure_[at(w.i)]), std::abs(pressure_[at(w.j)]));
+    if (intact == 0 ||
+        (intact == 1 && is_safe(w.k, w.k_over_area, gap.squared[k % lanes], gap.flexure[k % lanes], pressure, w.safe)))
+      continue;
     LinkState const s = state_of(k, wants);
     Real const scatter = group.scatter.empty() ? 1 : group.scatter[n];
     Real left = intact;
@@ -68,7 +75,6 @@ void Fracture::start() {
 }
 
 bool Fracture::judge(Real time) {
-  solid_.measure_gaps(gaps_);
   pressure_.assign(solid_.pressure().begin(), solid_.pressure().end());
   // Links between the first and the second layer of ghosts are judged here too, with the bits of their owners.
   if (ghost_pressure_) solid_.exchange_rows(pressure_, 1);
@@ -116,10 +122,10 @@ void Fracture::book() {
 
 void Fracture::join(Plan& plan) {
   plan.effect("solid.fracture", [this] {
-    std::size_t bytes = fragments_->bytes() + gaps_.size() * sizeof(GapBlock) + sections_.size() * sizeof(Section) +
+    std::size_t bytes = fragments_->bytes() + solid_.gaps().size_bytes() + sections_.size() * sizeof(Section) +
                         pressure_.size() * sizeof(double);
     for (LawGroup const& g : groups_)
-      bytes += g.links.size() * sizeof(std::size_t) + g.scatter.size() * sizeof(Real) +
+      bytes += g.links.size() * (sizeof(std::size_t) + sizeof(Watch)) + g.scatter.size() * sizeof(Real) +
                g.history.size() * sizeof(CohesiveHistory);
     return bytes;
   });

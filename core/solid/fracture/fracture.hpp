@@ -54,7 +54,6 @@ class Fracture : public Effect {
   std::size_t broken_seen_ = 0;
 
   // Of the judgement under way.
-  std::vector<GapBlock> gaps_;
   std::vector<double> pressure_;
   std::vector<Change> changes_;
   std::vector<Index> touched_;             // owned particles whose links changed

@@ -74,6 +74,13 @@ void require_room_to_soften(LawConfig const& law, Mesh const& mesh, Link const& 
   scene_error(law.at, text);
 }
 
+Watch watch_of(Criterion const& criterion, Section const& s, Solid const& solid, std::size_t k, Real scatter) {
+  Index const i = solid.link_store().end_i(k), j = solid.link_store().end_j(k);
+  Real const stiffness = s.modulus / s.length;
+  Real const safe = std::visit([&](auto const& law) { return law.safe_traction(scatter, stiffness); }, criterion);
+  return {i, j == solid.count() ? i : j, stiffness, 2 * stiffness / s.area, safe};
+}
+
 }  // namespace
 
 Section section_of(Mesh const& mesh, Link const& link) {
@@ -87,7 +94,7 @@ std::vector<LawGroup> assign_laws(FractureConfig const& config, Solid const& sol
   std::vector<LawGroup> groups;
   std::vector<Selector> selectors;
   for (LawConfig const& law : config.law) {
-    groups.push_back({law.criterion(), {}, {}, {}});
+    groups.push_back({law.criterion(), {}, {}, {}, {}});
     selectors.emplace_back(law, mesh);
   }
   auto const law_of = [&](Link const& link) {
@@ -103,8 +110,10 @@ std::vector<LawGroup> assign_laws(FractureConfig const& config, Solid const& sol
     std::size_t const law = law_of(link);
     if (law == 0) continue;
     LawGroup& group = groups[law - 1];
+    Real const scatter = scatter_of(config.law[law - 1], mesh, link);
     group.links.push_back(k);
-    if (config.law[law - 1].weibull) group.scatter.push_back(scatter_of(config.law[law - 1], mesh, link));
+    group.watch.push_back(watch_of(group.criterion, section_of(mesh, link), solid, k, scatter));
+    if (config.law[law - 1].weibull) group.scatter.push_back(scatter);
   }
   for (LawGroup& group : groups)
     if (std::holds_alternative<Cohesive>(group.criterion)) group.history.resize(group.links.size());

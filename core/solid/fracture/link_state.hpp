@@ -81,6 +81,14 @@ struct MixedToughness {
   }
 };
 
+/// Is sqrt(t^2 + 2 k e) below `safe`, with the traction t = k |gap| + |lambda epsilon|, k = 2 G / D, that bounds all
+/// stresses of a whole link, and e its energy of bending and twisting per area? Then its law need not look at it.
+/// `k`, `k_over_area`: k and 2 k / S.  `pressure`: the larger |lambda epsilon| of its ends, Pa.
+inline bool is_safe(Real k, Real k_over_area, Real squared, Real flexure, Real pressure, Real safe) {
+  Real const rest = safe - pressure;
+  return rest > 0 && k * k * squared + k_over_area * flexure < rest * rest;
+}
+
 /// What a law wants to know beyond opening, slip and flexure; everything else is left at zero.
 struct Wants {
   bool pressure = false, rate = false, fibre = false, stretch = false;

@@ -31,6 +31,7 @@ struct MixedStress {
   static void keys(Keys<MixedStress>& k);
 
   Wants wants() const { return {true, rate.has_value(), bending, false}; }
+  Real safe_traction(Real scatter, Real) const { return bending ? 0 : scatter * tensile_strength * min(1, beta); }
   bool fails(LinkState const& s, Real scatter) const {
     Real const strength = scatter * tensile_strength * (rate ? rate->factor(s.rate) : 1);
     Real const normal = std::max(s.normal + s.fibre, 0.0), shear = s.shear / beta;
@@ -50,6 +51,10 @@ struct MohrCoulomb {
   static void keys(Keys<MohrCoulomb>& k);
 
   Wants wants() const { return {true, rate.has_value(), bending, false}; }
+  Real safe_traction(Real scatter, Real) const {
+    Real const sheared = cohesion * std::cos(friction_angle);  // its distance from the origin
+    return bending ? 0 : scatter * min(sheared, tensile_strength.value_or(sheared));
+  }
   bool fails(LinkState const& s, Real scatter) const {
     Real const strength = scatter * (rate ? rate->factor(s.rate) : 1);
     Real const normal = s.normal + s.fibre;

@@ -110,8 +110,9 @@ void LinkStore::add_opened_volume(std::span<Pose const> pose, std::span<double> 
   }
 }
 
-void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> pressure,
-                           std::span<Wrench> wrench) const {
+template <bool with_gaps>
+void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
+                           std::span<GapBlock> gaps) const {
   for (std::size_t at = 0; at < blocks_.size(); ++at) {
     LinkBlock const& b = blocks_[at];
     if (at + ahead < blocks_.size())
@@ -119,8 +120,14 @@ void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> p
         fetch(&pose[static_cast<std::size_t>(j)]);
         fetch(&wrench[static_cast<std::size_t>(j)]);
       }
+    LinkGap<Lanes> gap;
     LinkWrench<Lanes> const w = link_wrench(read_rest(b), read_ends(pose.data(), b), gather(pressure.data(), b.i),
-                                            gather(pressure.data(), b.j));
+                                            gather(pressure.data(), b.j), with_gaps ? &gap : nullptr);
+    if constexpr (with_gaps) {
+      gap.opened.store_aligned(gaps[at].opened.data());
+      gap.squared.store_aligned(gaps[at].squared.data());
+      gap.flexure.store_aligned(gaps[at].flexure.data());
+    }
     auto const force = per_link(w.force), torque_i = per_link(w.torque_i), torque_j = per_link(w.torque_j);
     for (std::size_t k = 0; k < lanes; ++k) {
       double* to_i = numbers(wrench[static_cast<std::size_t>(b.i[k])]);
@@ -133,18 +140,10 @@ void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> p
   }
 }
 
-void LinkStore::measure_gaps(std::span<Pose const> pose, std::vector<GapBlock>& gaps) const {
-  gaps.resize(blocks_.size());
-  for (std::size_t at = 0; at < blocks_.size(); ++at) {
-    LinkBlock const& b = blocks_[at];
-    if (at + ahead < blocks_.size())
-      for (Index j : blocks_[at + ahead].j) fetch(&pose[static_cast<std::size_t>(j)]);
-    LinkGap<Lanes> const gap = link_gap(read_rest(b), read_ends(pose.data(), b));
-    gap.opened.store_aligned(gaps[at].opened.data());
-    gap.squared.store_aligned(gaps[at].squared.data());
-    gap.flexure.store_aligned(gaps[at].flexure.data());
-  }
-}
+template void LinkStore::add_wrench<false>(std::span<Pose const>, std::span<double const>, std::span<Wrench>,
+                                           std::span<GapBlock>) const;
+template void LinkStore::add_wrench<true>(std::span<Pose const>, std::span<double const>, std::span<Wrench>,
+                                          std::span<GapBlock>) const;
 
 LinkEnds<double> ends_of(Pose const& i, Pose const& j) {
   auto triple = [](Vec3 const& v) { return Triple<double>{v.x, v.y, v.z}; };

@@ -33,11 +33,20 @@ class LinkStore {
   /// Adds to `opened` of both ends the volume their links open, m3.
   void add_opened_volume(std::span<Pose const> pose, std::span<double> opened) const;
   /// Adds the forces and torques of all links to both ends. `pressure`: lambda epsilon, Pa.
-  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench) const;
-  /// The gaps of all links, four to a block in the order of the store; resizes `gaps`.
-  void measure_gaps(std::span<Pose const> pose, std::vector<GapBlock>& gaps) const;
+  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench) const {
+    add_wrench<false>(pose, pressure, wrench, {});
+  }
+  /// The same, and leaves the gaps of all links in `gaps`, four to a block in the order of the store.
+  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
+                  std::span<GapBlock> gaps) const {
+    add_wrench<true>(pose, pressure, wrench, gaps);
+  }
+  std::size_t blocks() const { return blocks_.size(); }
 
  private:
+  template <bool with_gaps>
+  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
+                  std::span<GapBlock> gaps) const;
   // Every particle receives its links one after the other in the order of the store, which is the global order: the
   // sums have the same bits whatever the lane or rank. Lanes left over in the last block have no stiffness and add
   // zero.
