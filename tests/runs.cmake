@@ -25,6 +25,7 @@ brisance_same_digest(double-mach ${PROJECT_SOURCE_DIR}/tests/support/scenes/doub
 brisance_same_digest(viscous-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-box.toml 40)
 brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-bodies.toml 60)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
+brisance_same_digest(bursting-wheel ${scenes}/bursting-wheel.toml 90)
 brisance_same_digest(break-up ${PROJECT_SOURCE_DIR}/tests/support/scenes/break-up.toml 44)
 
 # brisance_same_gauges(name SCENE steps [options of run])
@@ -54,6 +55,16 @@ brisance_expect(scene_wall_leaves_its_cell CODE 2 LABELS unit ABSENT ${runs}/wal
 brisance_expect(scene_more_ranks_than_blocks CODE 2 RANKS 3 LABELS parallel ABSENT ${runs}/ranks
                 MESSAGE "explosion-cylinder.toml:[0-9]+:[0-9]+: 3 ranks, but the scene has only 2 fluid blocks"
                 COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/ranks --set fluid.block=300)
+# A gas would have to follow the cracks.
+brisance_expect(scene_fracture_in_a_gas CODE 2 LABELS unit ABSENT ${runs}/cracks
+                MESSAGE "solid.fracture: the surface that the gas wets does not split"
+                COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/cracks
+                        --set "solid.fracture.law=[{ elongation = { at_break = 0.1 } }]")
+brisance_expect(scene_fracture_without_links CODE 2 LABELS unit ABSENT ${runs}/no-links
+                MESSAGE "solid.fracture breaks links, and the scene has none"
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/free-particles.toml --out ${runs}/no-links)
+brisance_expect(check_bursting-wheel CODE 0 LABELS unit MESSAGE "solid.fracture +on.*1500 particles, 7643 links"
+                COMMAND ${program} check ${scenes}/bursting-wheel.toml --ranks 2)
 brisance_expect(check_explosion-cylinder CODE 0 LABELS unit MESSAGE "coupling.cut_cells +on.*180000 cells.*50 particles, 50 links"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --ranks 4)
 brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity +off: .*output.gauges +on.*416 particles.*charges +fluid.charge.0.: 1 kg of gas with 4.184 MJ above"
