@@ -142,8 +142,8 @@ class Solid {
   /// The bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
   StableStep link_limit() const;
 
-  // The parts of the energy, J: of a particle with its rotation, of its volumetric strain (owned and first layer, at the
-  // last compute_forces), and of a link.
+  // The parts of the energy, J: of a particle with its rotation, of its volumetric strain (owned and first layer, at
+  // the last compute_forces), and of a link.
   Real kinetic_energy(Index particle) const;
   Real volumetric_energy(Index particle) const {
     auto const at = static_cast<std::size_t>(particle);

@@ -123,9 +123,10 @@ std::string census_header() {
 
 std::string census_row(FragmentFigures const& f, Mesh const& mesh, std::int64_t step, Real time) {
   std::string const separated = f.separated == Fragments::never ? "" : fmt::format("{:.17g}", f.separated);
-  return fmt::format("{},{:.17g},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{}\n",
-                     step, time, f.label, mesh.bodies[at(f.body)].name, f.particles, f.mass, f.volume, f.centre.x,
-                     f.centre.y, f.centre.z, f.velocity.x, f.velocity.y, f.velocity.z, f.kinetic, f.elastic, separated);
+  return fmt::format(
+      "{},{:.17g},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{}\n", step,
+      time, f.label, mesh.bodies[at(f.body)].name, f.particles, f.mass, f.volume, f.centre.x, f.centre.y, f.centre.z,
+      f.velocity.x, f.velocity.y, f.velocity.z, f.kinetic, f.elastic, separated);
 }
 
 }  // namespace brisance::solid

@@ -22,9 +22,10 @@ Fracture::Fracture(FractureConfig const& config, Solid& solid, parallel::Comm& c
   Mesh const& mesh = solid_.mesh();
   for (std::size_t k = 0; k < solid_.links(); ++k)
     sections_.push_back(section_of(mesh, mesh.links[solid_.mesh_link(k)]));
-  bool const volumetric = std::any_of(mesh.materials.begin(), mesh.materials.end(),
-                                      [](Material const& m) { return m.lame() != 0; });
-  for (LawGroup const& group : groups_) ghost_pressure_ = ghost_pressure_ || (volumetric && wants_of(group.criterion).pressure);
+  bool const volumetric =
+      std::any_of(mesh.materials.begin(), mesh.materials.end(), [](Material const& m) { return m.lame() != 0; });
+  for (LawGroup const& group : groups_)
+    ghost_pressure_ = ghost_pressure_ || (volumetric && wants_of(group.criterion).pressure);
 }
 
 LinkState Fracture::state_of(std::size_t k, Wants const& wants) const {
@@ -79,8 +80,7 @@ bool Fracture::judge(Real time) {
   // Links between the first and the second layer of ghosts are judged here too, with the bits of their owners.
   if (ghost_pressure_) solid_.exchange_rows(pressure_, 1);
   changes_.clear();
-  for (LawGroup& group : groups_)
-    std::visit([&](auto const& law) { judge_group(group, law); }, group.criterion);
+  for (LawGroup& group : groups_) std::visit([&](auto const& law) { judge_group(group, law); }, group.criterion);
 
   Index const owned = solid_.owned();
   LinkStore const& links = solid_.link_store();

@@ -60,14 +60,17 @@ void Cohesive::keys(Keys<Cohesive>& k) {
       .required()
       .above(0);
   k("toughness", &Cohesive::toughness, "J/m2", "energy dissipated per area in opening").required().above(0);
-  k("shear_toughness", &Cohesive::shear_toughness, "J/m2", "energy dissipated per area in shear; not given: as in opening")
+  k("shear_toughness", &Cohesive::shear_toughness, "J/m2",
+    "energy dissipated per area in shear; not given: as in opening")
       .above(0);
   k("mixing_exponent", &Cohesive::mixing_exponent, "1", exponent_meaning).above(0);
   k("beta", &Cohesive::beta, "1", beta_meaning).above(0);
 }
 
 void Weibull::keys(Keys<Weibull>& k) {
-  k("modulus", &Weibull::modulus, "1", "Weibull modulus: 5 for scattered, 30 for uniform strengths").required().above(0);
+  k("modulus", &Weibull::modulus, "1", "Weibull modulus: 5 for scattered, 30 for uniform strengths")
+      .required()
+      .above(0);
   k("volume", &Weibull::volume, "m3", "volume for which the strength of the law is the characteristic one")
       .required()
       .above(0);

@@ -32,8 +32,7 @@ std::vector<double> Fracture::pack_history() const {
   for (LawGroup const& group : groups_)
     for (std::size_t n = 0; n < group.history.size(); ++n) of[group.links[n]] = group.history[n];
   for (std::size_t k = 0; k < of.size(); ++k)
-    if (solid_.link_store().end_i(k) < solid_.owned())
-      rows.insert(rows.end(), {of[k].largest, of[k].onset, of[k].end});
+    if (solid_.link_store().end_i(k) < solid_.owned()) rows.insert(rows.end(), {of[k].largest, of[k].onset, of[k].end});
   return rows;
 }
 
@@ -52,9 +51,8 @@ void Fracture::keep(Plan& plan) {
     std::size_t broken_seen = 0;
   };
   auto const saved = std::make_shared<Saved>();
-  bool const soft = std::any_of(groups_.begin(), groups_.end(), [](LawGroup const& g) {
-    return std::holds_alternative<Cohesive>(g.criterion);
-  });
+  bool const soft = std::any_of(groups_.begin(), groups_.end(),
+                                [](LawGroup const& g) { return std::holds_alternative<Cohesive>(g.criterion); });
   Plan::Keep keep;
   keep.save = [this, saved] {
     if (std::exchange(history_changed_, false)) {

@@ -56,7 +56,8 @@ Real scatter_of(LawConfig const& law, Mesh const& mesh, Link const& link) {
   Section const s = section_of(mesh, link);
   Real const factor = law.weibull->factor(link.i, link.j, wall ? link.face_i : 0, s.area * s.length);
   // The strongest of many softening links still break at their toughness, as brittle ones do.
-  return law.cohesive ? min(factor, law.cohesive->largest_scatter(mesh.material(link.i).young_modulus, s.length)) : factor;
+  return law.cohesive ? min(factor, law.cohesive->largest_scatter(mesh.material(link.i).young_modulus, s.length))
+                      : factor;
 }
 
 /// A link that stores more than its toughness when it reaches its strength cannot soften.
@@ -65,12 +66,12 @@ void require_room_to_soften(LawConfig const& law, Mesh const& mesh, Link const& 
   if (link.rest_length < longest) return;
   char text[400];
   Vec3 const x = mesh.particle(link.i).centre;
-  std::snprintf(text, sizeof text,
-                "solid.fracture.law.cohesive: the link of particles %lld and %lld at (%.4g, %.4g, %.4g) m is %.3g m long, "
-                "but at its strength it stores more than its toughness from 2 E G_c / f_t^2 = %.3g m on. Take smaller "
-                "particles, a lower strength, or the criterion energy.",
-                static_cast<long long>(link.i), static_cast<long long>(link.j), x.x, x.y, x.z, link.rest_length,
-                longest);
+  std::snprintf(
+      text, sizeof text,
+      "solid.fracture.law.cohesive: the link of particles %lld and %lld at (%.4g, %.4g, %.4g) m is %.3g m long, "
+      "but at its strength it stores more than its toughness from 2 E G_c / f_t^2 = %.3g m on. Take smaller "
+      "particles, a lower strength, or the criterion energy.",
+      static_cast<long long>(link.i), static_cast<long long>(link.j), x.x, x.y, x.z, link.rest_length, longest);
   scene_error(law.at, text);
 }
 

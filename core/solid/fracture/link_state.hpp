@@ -25,17 +25,17 @@ struct Release {
 
 /// A link at one instant. Stresses are those of its intact part.
 struct LinkState {
-  Real opening = 0;         ///< du . n, m; negative when closed
-  Real slip = 0;            ///< |du_t|, m
-  Real normal_i = 0;        ///< sigma_n,I = 2 G du_n / D + lambda epsilon_I, Pa
-  Real normal_j = 0;        ///< sigma_n,J
-  Real normal = 0;          ///< sigma_n, their mean by weights, Pa; tension is positive
-  Real shear = 0;           ///< tau, Pa
-  Real flexure = 0;         ///< energy of bending and twisting per area, J/m2
-  Real fibre = 0;           ///< largest tensile stress of bending over the face, Pa
-  Real stretch = 0;         ///< (|d| - D) / D
-  Real rate = 0;            ///< speed of the gap over D, 1/s
-  Real volume = 0;          ///< S D, m3
+  Real opening = 0;   ///< du . n, m; negative when closed
+  Real slip = 0;      ///< |du_t|, m
+  Real normal_i = 0;  ///< sigma_n,I = 2 G du_n / D + lambda epsilon_I, Pa
+  Real normal_j = 0;  ///< sigma_n,J
+  Real normal = 0;    ///< sigma_n, their mean by weights, Pa; tension is positive
+  Real shear = 0;     ///< tau, Pa
+  Real flexure = 0;   ///< energy of bending and twisting per area, J/m2
+  Real fibre = 0;     ///< largest tensile stress of bending over the face, Pa
+  Real stretch = 0;   ///< (|d| - D) / D
+  Real rate = 0;      ///< speed of the gap over D, 1/s
+  Real volume = 0;    ///< S D, m3
   Section const* section = nullptr;
 };
 

@@ -43,10 +43,10 @@ struct MixedStress {
 struct MohrCoulomb {
   static constexpr char const* name = "mohr_coulomb";
   static constexpr bool softens = false;
-  Real cohesion = 0;                      // c, Pa
-  Real friction_angle = 0;                // phi, rad
-  std::optional<Real> tensile_strength;   // f_t, Pa
-  bool bending = false;                   // add the outer-fibre stress of bending to sigma_n
+  Real cohesion = 0;                     // c, Pa
+  Real friction_angle = 0;               // phi, rad
+  std::optional<Real> tensile_strength;  // f_t, Pa
+  bool bending = false;                  // add the outer-fibre stress of bending to sigma_n
   std::optional<RateHardening> rate;
   static void keys(Keys<MohrCoulomb>& k);
 

@@ -14,8 +14,8 @@ namespace brisance::solid {
 
 /// Weibull strengths: a volume V under a uniform stress s survives with probability exp(-(V / V_0) (s / f_0)^m).
 struct Weibull {
-  Real modulus = 0;       // m
-  Real volume = 0;        // V_0, m3
+  Real modulus = 0;  // m
+  Real volume = 0;   // V_0, m3
   std::int64_t seed = 1;
   static void keys(Keys<Weibull>& k);
 

@@ -111,8 +111,8 @@ TEST(Fracture, EveryBreakReleasesWhatTheAccountSays) {
         before = after;
       }
       std::string const variant = (voronoi ? "voronoi nu " : "cartesian nu ") + figure(nu);
-      EXPECT_TRUE(evidence::at_most("S25", "break ledger", variant, "drop of a link and its ends minus that of the body",
-                                    error, 1e-14));
+      EXPECT_TRUE(evidence::at_most("S25", "break ledger", variant,
+                                    "drop of a link and its ends minus that of the body", error, 1e-14));
       EXPECT_TRUE(evidence::at_most("S25", "break ledger", variant, "sum of the drops minus the change",
                                     std::abs(released.value() - (start - before)) / start, 1e-14));
       EXPECT_TRUE(evidence::at_most("S25", "break ledger", variant, "minus the smallest drop", -smallest, 0));
@@ -139,9 +139,9 @@ TEST(Fracture, LinksThatFailTogetherReleaseTheDropOfTheBody) {
       fracture.book();
       Real const drop = start - body.measure().value(Measures::elastic);
       EXPECT_GT(fracture.links_broken(), links);
-      EXPECT_TRUE(evidence::at_most("S25", "break ledger of the effect", "round " + figure(static_cast<Real>(rounds)) + " nu " + figure(nu),
-                                    "booked minus the drop of the body",
-                                    std::abs(fracture.dissipated().value() - drop) / start, 1e-14));
+      EXPECT_TRUE(evidence::at_most(
+          "S25", "break ledger of the effect", "round " + figure(static_cast<Real>(rounds)) + " nu " + figure(nu),
+          "booked minus the drop of the body", std::abs(fracture.dissipated().value() - drop) / start, 1e-14));
       links = fracture.links_broken();
       ++rounds;
     }
@@ -179,8 +179,9 @@ TEST(Fracture, ReleaseIsTheDerivativeOfTheEnergy) {
         error = max(error, std::abs(formula - slope) / formula);
         energy(0);
       }
-      EXPECT_TRUE(evidence::at_most("S26", "release of a link", (voronoi ? "voronoi nu " : "cartesian nu ") + figure(nu),
-                                    "Y against differences", error, 1e-7));
+      EXPECT_TRUE(evidence::at_most("S26", "release of a link",
+                                    (voronoi ? "voronoi nu " : "cartesian nu ") + figure(nu), "Y against differences",
+                                    error, 1e-7));
     }
 }
 
@@ -195,35 +196,102 @@ Real relax(Lone& body, Real omega, Real time) {
   return body.measure().value(Measures::elastic);
 }
 
-// S27: a strip between grips, cut along its middle to half its length.
-TEST(Fracture, StripReleasesWhatTheContinuumDoes) {
-  Index const rows = 12, columns = 72;
-  Real const half_height = 0.5 * (rows - 1), pull = 1e-3;
-  SolidConfig config = testing::one_material(1, 1, 0);
-  config.body.push_back(testing::box({0, 0, 0}, {1.0 * columns, 1.0 * rows, 0}, {columns, rows, 1}));
-  config.body[0].hold.push_back({{0, 0, 0}, {1.0 * columns, 1, 0}});
-  config.body[0].hold.push_back({{0, rows - 1.0, 0}, {1.0 * columns, 1.0 * rows, 0}});
-  Real energy[2];
-  for (Index more : {0, 1}) {
-    Lone strip(config, 2);
-    strip.solid.allow_damage();
-    Real const tip = columns / 2 + more;
-    for (std::size_t k = 0; k < strip.solid.links(); ++k) {
-      Link const& link = strip.mesh.links[k];
-      Vec3 const face = strip.mesh.particle(link.i).centre + strip.mesh.face(link.i, link.face_i).centroid;
-      if (std::abs(face.y - 0.5 * rows) < 0.1 && face.x < tip) strip.solid.weaken(k, 0);
-    }
-    for (Pose& p : strip.solid.pose()) {
+/// A strip of `rows` x `columns` unit cells between grips, drawn apart by 2 `pull` and cut along its middle up to
+/// `tip`.
+struct Strip : Lone {
+  Real half_height, tip;
+  Strip(Index columns, Index rows, Real pull, Real cut)
+      : Lone(config(columns, rows), 2), half_height(0.5 * (rows - 1)), tip(cut) {
+    solid.allow_damage();
+    for (std::size_t k = 0; k < solid.links(); ++k)
+      if (Vec3 const face = place(k); std::abs(face.y - 0.5 * rows) < 0.1 && face.x < tip) solid.weaken(k, 0);
+    for (Pose& p : solid.pose()) {
       Real const eta = (p.x.y - 0.5 * rows) / half_height;
       p.x.y += pull * (p.x.x < tip ? (eta > 0 ? 1 : -1) : eta);
     }
-    strip.solid.compute_forces();
-    // Slowest: shear of a half between its grip and the cut or the middle, c_s pi / (2 H).
-    energy[more] = relax(strip, std::sqrt(0.5) * 1.57 / half_height, 150);
+    solid.compute_forces();
+    // Slowest: shear of a half between its grip and the middle, c_s pi / (2 H).
+    energy = relax(*this, std::sqrt(0.5) * 1.57 / half_height, 27 * half_height);
   }
-  Real const exact = pull * pull / half_height;
-  EXPECT_TRUE(evidence::near("S27", "strip", "H 5.5 cells", "release rate over exact", (energy[0] - energy[1]) / exact, 1,
-                             1e-3));
+  Real energy = 0;
+  Vec3 place(std::size_t k) const {
+    Link const& link = mesh.links[k];
+    return mesh.particle(link.i).centre + mesh.face(link.i, link.face_i).centroid;
+  }
+  static SolidConfig config(Index columns, Index rows) {
+    SolidConfig config = testing::one_material(1, 1, 0);
+    Real const x = columns, y = rows;
+    config.body.push_back(testing::box({0, 0, 0}, {x, y, 0}, {columns, rows, 1}));
+    config.body[0].hold.push_back({{0, 0, 0}, {x, 1, 0}});
+    config.body[0].hold.push_back({{0, y - 1, 0}, {x, y, 0}});
+    return config;
+  }
+  /// Y / S of the link at the tip, J/m2.
+  Real stored_at_tip() const {
+    Real stored = 0;
+    for (std::size_t k = 0; k < solid.links(); ++k) {
+      Vec3 const face = place(k);
+      if (std::abs(face.y - half_height - 0.5) > 0.1 || std::abs(face.x - tip - 0.5) > 0.1) continue;
+      GapBlock const& gap = solid.gaps()[k / lanes];
+      stored =
+          release(link_state(section_of(mesh, mesh.links[k]), gap.opened[k % lanes], gap.squared[k % lanes], 0, 0, 0))
+              .total();
+    }
+    return stored;
+  }
+};
+
+// S27, and the share of the release rate that the link at the tip stores (theory section 14: 0.340 at H = 5, 0.313 at
+// 10, 0.301 at 20; here H lies between two of them).
+TEST(Fracture, StripReleasesWhatTheContinuumDoes) {
+  Real const pull = 1e-3;
+  struct Case {
+    Index rows;
+    Real share;
+  };
+  for (Case const& c : {Case{12, 0.335}, Case{22, 0.312}}) {
+    if (c.rows > 12 && !evidence::full()) break;
+    Index const columns = 6 * c.rows;
+    Strip const cut(columns, c.rows, pull, columns / 2), further(columns, c.rows, pull, columns / 2 + 1);
+    Real const exact = pull * pull / cut.half_height;
+    std::string const variant = "H " + figure(cut.half_height) + " cells";
+    EXPECT_TRUE(evidence::near("S27", "strip", variant, "release rate over exact",
+                               (cut.energy - further.energy) / exact, 1, 1e-3));
+    EXPECT_TRUE(evidence::near("S27", "strip", variant, "stored by the link at the tip over release rate",
+                               cut.stored_at_tip() / exact, c.share, 3e-3));
+  }
+}
+
+// A crack runs at the toughness of the material when the criterion knows what its tip stores.
+TEST(Fracture, CrackRunsAtItsToughness) {
+  Index const rows = 22, columns = 88;
+  Real const pull = 1e-3;
+  for (Real over : {0.9, 1.1}) {
+    Strip strip(columns, rows, pull, 24);
+    LawConfig law;
+    law.energy.emplace();
+    law.energy->toughness = pull * pull / strip.half_height / over;
+    law.energy->tip_share = 0.312;  // at this height; 0.29 for bodies that are large beside their particles
+    FractureConfig config;
+    config.law.push_back(law);
+    Fracture fracture(config, strip.solid, *strip.comm);
+    fracture.start();
+    Real const dt = strip.solid.stable_step();
+    for (int n = 0; n < 160; ++n) {  // later, the waves that the tip leaves break other links too
+      strip.solid.step(dt);
+      if (!fracture.judge(0)) continue;
+      strip.solid.compute_forces();
+      fracture.book();
+    }
+    std::int64_t off_the_plane = 0;
+    for (std::size_t k = 0; k < strip.solid.links(); ++k)
+      if (strip.solid.intact(k) == 0 && std::abs(strip.place(k).y - 0.5 * rows) > 0.1) ++off_the_plane;
+    EXPECT_EQ(off_the_plane, 0);
+    if (over < 1)
+      EXPECT_EQ(fracture.links_broken(), 0);
+    else
+      EXPECT_GT(fracture.links_broken(), 30);
+  }
 }
 
 /// Two layers of 3 x 2 bricks, one held, one drawn along `direction` until all links between them have gone.
@@ -286,8 +354,8 @@ TEST(Fracture, ChainBreaksAtOneCohesiveLink) {
   chain.start();
   for (int n = 0; n < 60000 && chain.broken() < 1; ++n) chain.simulation.pair();
   EXPECT_EQ(chain.broken(), 1);
-  EXPECT_TRUE(evidence::near("S31", "cohesive link", "chain of 9", "dissipated over G_c S", chain.dissipated() / 1e-3, 1,
-                             1e-3));
+  EXPECT_TRUE(evidence::near("S31", "cohesive link", "chain of 9", "dissipated over G_c S", chain.dissipated() / 1e-3,
+                             1, 1e-3));
 }
 
 /// Largest |H + D - H_0| / H_0 while a body that expands breaks up, and how many of its links broke.
@@ -340,8 +408,8 @@ TEST(Fracture, BreakUpKeepsTheAccountToTheOscillationOfVerlet) {
       BreakUp const now = break_up(c.law, c.nu, c.voronoi, cfl);
       std::string const variant = std::string(c.name) + " cfl " + figure(cfl);
       EXPECT_GT(now.broken, 0.9 * now.links);
-      EXPECT_TRUE(evidence::at_most("S25", "account of a break-up", variant,
-                                    "largest |H + D - H_0| / H_0 over cfl^2", now.defect / (cfl * cfl), 0.012));
+      EXPECT_TRUE(evidence::at_most("S25", "account of a break-up", variant, "largest |H + D - H_0| / H_0 over cfl^2",
+                                    now.defect / (cfl * cfl), 0.012));
     }
   }
 }

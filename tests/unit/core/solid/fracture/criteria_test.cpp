@@ -21,8 +21,8 @@ TEST(LinkState, HasTheStressesOfTheTheory) {
   EXPECT_NEAR(s.normal, 4 * 0.01 / 2 + 0.3 * 0.1 - 0.7 * 0.2, 1e-16);
   EXPECT_NEAR(s.shear, 4 * 0.02 / 2, 1e-15);
   // (S D / 4 G) [w_I s_I^2 + w_J s_J^2 + tau^2] + E_flex, over S
-  EXPECT_NEAR(release(s).total(),
-              2 / (2 * 4.0) * (0.3 * 0.12 * 0.12 + 0.7 * 0.18 * 0.18 + 0.04 * 0.04) + 0.3 / 0.5, 1e-15);
+  EXPECT_NEAR(release(s).total(), 2 / (2 * 4.0) * (0.3 * 0.12 * 0.12 + 0.7 * 0.18 * 0.18 + 0.04 * 0.04) + 0.3 / 0.5,
+              1e-15);
 }
 
 TEST(LinkState, CompressionDrivesNoCrack) {
@@ -147,7 +147,7 @@ TEST(Cohesive, SoftensLinearlyAndUnloadsTowardsTheOrigin) {
   EXPECT_NEAR(traction(0.015), 0.01 * (0.03 - 0.015) / 0.02, 1e-15);
   EXPECT_NEAR(traction(0.02), 0.005, 1e-15);
   EXPECT_NEAR(history.end, 0.03, 1e-15);
-  EXPECT_NEAR(traction(0.01), 0.0025, 1e-15);       // the way back keeps the damage
+  EXPECT_NEAR(traction(0.01), 0.0025, 1e-15);  // the way back keeps the damage
   EXPECT_NEAR(traction(-0.01), -0.0025, 1e-15);
   EXPECT_NEAR(traction(0.02), 0.005, 1e-15);
   EXPECT_EQ(traction(0.031), 0);
