@@ -12,4 +12,5 @@ brisance_test(solid_stable_step SOURCES verification/solid/stable_step_test.cpp 
 brisance_test(solid_parallel SOURCES parallel/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
 brisance_test(solid_fracture_parallel SOURCES parallel/fracture_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
 brisance_test(solid_restart SOURCES restart/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS restart)
-brisance_test(solid_fracture SOURCES verification/solid/fracture_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_fracture SOURCES verification/solid/fracture_test.cpp verification/solid/fracture_account_test.cpp
+  LINKS brisance::solid LABELS verification)

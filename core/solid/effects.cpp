@@ -4,25 +4,13 @@
 
 #include "core/base/errors.hpp"
 #include "core/solid/fracture/fracture.hpp"
-#include "parallel/archive.hpp"
+#include "core/solid/rows.hpp"
 
 namespace brisance::solid {
 
 namespace {
 
 constexpr std::size_t bytes_per_link = 176;  // ends, stiffness, area, arms, normal, bending tensor
-
-/// Consecutive ids as ranges of rows.
-std::vector<parallel::Range> rows_of(std::span<GlobalId const> ids) {
-  std::vector<parallel::Range> ranges;
-  for (GlobalId const id : ids) {
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == id)
-      ++ranges.back().count;
-    else
-      ranges.push_back({id, 1});
-  }
-  return ranges;
-}
 
 }  // namespace
 

@@ -4,24 +4,13 @@
 #include <utility>
 
 #include "core/solid/fracture/fracture.hpp"
-#include "parallel/archive.hpp"
+#include "core/solid/rows.hpp"
 
 namespace brisance::solid {
 namespace {
 
 constexpr std::uint32_t cohesive_kind = 0x434f4845;  // "COHE"
 constexpr int history_columns = 3;
-
-std::vector<parallel::Range> rows_of(std::span<GlobalId const> ids) {
-  std::vector<parallel::Range> ranges;
-  for (GlobalId const id : ids) {
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == id)
-      ++ranges.back().count;
-    else
-      ranges.push_back({id, 1});
-  }
-  return ranges;
-}
 
 }  // namespace
 
