@@ -72,6 +72,8 @@ class Plan {
   void particle_field(std::string name, std::function<void(std::span<double>)> fill) {
     particle_fields_.push_back({std::move(name), std::move(fill)});
   }
+  /// What a user should know of the effect before the run: a line each, the same on every rank.
+  void remark(std::string text) { remarks_.push_back(std::move(text)); }
   /// During Stage::fracture, on all ranks alike: the law of force has changed, so Stage::forces and Stage::contact run
   /// once more before the next step.
   void ask_for_forces() { forces_asked_ = true; }
@@ -84,6 +86,7 @@ class Plan {
   std::vector<std::function<void(Ledger&)>> const& accounts() const { return accounts_; }
   std::vector<Table> const& tables() const { return tables_; }
   std::vector<ParticleField> const& particle_fields() const { return particle_fields_; }
+  std::vector<std::string> const& remarks() const { return remarks_; }
   std::vector<EffectCost>& effects() { return effects_; }
   std::vector<EffectCost> const& effects() const { return effects_; }
 
@@ -96,6 +99,7 @@ class Plan {
   std::vector<std::function<void(Ledger&)>> accounts_;
   std::vector<Table> tables_;
   std::vector<ParticleField> particle_fields_;
+  std::vector<std::string> remarks_;
   bool forces_asked_ = false;
 };
 

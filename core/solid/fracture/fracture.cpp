@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/solid/fracture/law_figures.hpp"
 #include "core/solid/fracture/link_motion.hpp"
 
 namespace brisance::solid {
@@ -18,6 +19,7 @@ Wants wants_of(Criterion const& criterion) {
 
 Fracture::Fracture(FractureConfig const& config, Solid& solid, parallel::Comm& comm)
     : solid_(solid), comm_(comm), groups_(assign_laws(config, solid)) {
+  remarks_ = law_figures(config, solid_.mesh());
   solid_.allow_damage();
   Mesh const& mesh = solid_.mesh();
   for (std::size_t k = 0; k < solid_.links(); ++k)
@@ -129,6 +131,7 @@ void Fracture::join(Plan& plan) {
                g.history.size() * sizeof(CohesiveHistory);
     return bytes;
   });
+  for (std::string const& remark : remarks_) plan.remark(remark);
   plan.at(Stage::fracture, [this, &plan](Clock const& c) {
     if (judge(c.time + c.dt)) plan.ask_for_forces();
   });

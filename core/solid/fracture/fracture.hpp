@@ -1,6 +1,7 @@
 // The effect solid.fracture: links over their criterion weaken and break; what they release goes to the account.
 #pragma once
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/model/plan.hpp"
@@ -47,6 +48,7 @@ class Fracture : public Effect {
 
   Solid& solid_;
   parallel::Comm& comm_;
+  std::vector<std::string> remarks_;
   std::vector<LawGroup> groups_;
   std::vector<Section> sections_;  // of the links of the rank
   bool ghost_pressure_ = false;    // some law reads pressures, and some are not zero

@@ -22,34 +22,6 @@ Index place_of(std::vector<std::string> const& names, std::string const& name, c
   return static_cast<Index>(found - names.begin());
 }
 
-/// Does a law fit a link? Names looked up once.
-class Selector {
- public:
-  Selector(LawConfig const& law, Mesh const& mesh) : clamps_(law.clamps) {
-    auto const bodies = names_of(mesh.bodies), materials = names_of(mesh.materials);
-    if (law.body) body_ = place_of(bodies, *law.body, "body", law.at);
-    if (law.material) material_ = place_of(materials, *law.material, "material", law.at);
-    if (law.between.empty()) return;
-    require(law.between.size() == 2 && law.between[0] != law.between[1], law.at,
-            "solid.fracture.law.between wants two different materials");
-    for (std::size_t n = 0; n < 2; ++n) pair_[n] = place_of(materials, law.between[n], "material", law.at);
-  }
-  bool operator()(Mesh const& mesh, Link const& link) const {
-    bool const wall = link.j == Link::wall;
-    if (wall && !clamps_) return false;
-    Particle const &i = mesh.particle(link.i), &j = mesh.particle(wall ? link.i : link.j);
-    if (body_ && (i.body != *body_ || j.body != *body_)) return false;
-    if (material_ && (i.material != *material_ || j.material != *material_)) return false;
-    return pair_[0] < 0 || (i.material == pair_[0] && j.material == pair_[1]) ||
-           (i.material == pair_[1] && j.material == pair_[0]);
-  }
-
- private:
-  bool clamps_;
-  std::optional<Index> body_, material_;
-  std::array<Index, 2> pair_{-1, -1};
-};
-
 Real scatter_of(LawConfig const& law, Mesh const& mesh, Link const& link) {
   if (!law.weibull) return 1;
   bool const wall = link.j == Link::wall;
@@ -84,6 +56,38 @@ Watch watch_of(Criterion const& criterion, Section const& s, Solid const& solid,
 
 }  // namespace
 
+LawFinder::LawFinder(FractureConfig const& config, Mesh const& mesh) : mesh_(mesh) {
+  auto const bodies = names_of(mesh.bodies), materials = names_of(mesh.materials);
+  for (LawConfig const& law : config.law) {
+    Selector s;
+    s.clamps = law.clamps;
+    if (law.body) s.body = place_of(bodies, *law.body, "body", law.at);
+    if (law.material) s.material = place_of(materials, *law.material, "material", law.at);
+    if (!law.between.empty()) {
+      require(law.between.size() == 2 && law.between[0] != law.between[1], law.at,
+              "solid.fracture.law.between wants two different materials");
+      for (std::size_t n = 0; n < 2; ++n) s.pair[n] = place_of(materials, law.between[n], "material", law.at);
+    }
+    selectors_.push_back(s);
+  }
+}
+
+bool LawFinder::fits(Selector const& law, Link const& link) const {
+  bool const wall = link.j == Link::wall;
+  if (wall && !law.clamps) return false;
+  Particle const &i = mesh_.particle(link.i), &j = mesh_.particle(wall ? link.i : link.j);
+  if (law.body && (i.body != *law.body || j.body != *law.body)) return false;
+  if (law.material && (i.material != *law.material || j.material != *law.material)) return false;
+  return law.pair[0] < 0 || (i.material == law.pair[0] && j.material == law.pair[1]) ||
+         (i.material == law.pair[1] && j.material == law.pair[0]);
+}
+
+std::optional<std::size_t> LawFinder::operator()(Link const& link) const {
+  for (std::size_t law = selectors_.size(); law-- > 0;)
+    if (fits(selectors_[law], link)) return law;
+  return std::nullopt;
+}
+
 Section section_of(Mesh const& mesh, Link const& link) {
   Real const area = mesh.face(link.i, link.face_i).area;
   return {area, link.rest_length, link.weight, link.stiffness * link.rest_length / area};
@@ -93,28 +97,20 @@ std::vector<LawGroup> assign_laws(FractureConfig const& config, Solid const& sol
   Mesh const& mesh = solid.mesh();
   require(!config.law.empty(), config.at, "solid.fracture has no law: add [[solid.fracture.law]] with a criterion");
   std::vector<LawGroup> groups;
-  std::vector<Selector> selectors;
-  for (LawConfig const& law : config.law) {
-    groups.push_back({law.criterion(), {}, {}, {}, {}});
-    selectors.emplace_back(law, mesh);
-  }
-  auto const law_of = [&](Link const& link) {
-    std::size_t law = groups.size();
-    while (law > 0 && !selectors[law - 1](mesh, link)) --law;
-    return law;  // 0: none, else one more than its place
-  };
+  for (LawConfig const& law : config.law) groups.push_back({law.criterion(), {}, {}, {}, {}});
+  LawFinder const finder(config, mesh);
   for (Link const& link : mesh.links)
-    if (std::size_t const law = law_of(link); law > 0 && config.law[law - 1].cohesive)
-      require_room_to_soften(config.law[law - 1], mesh, link);
+    if (auto const law = finder(link); law && config.law[*law].cohesive)
+      require_room_to_soften(config.law[*law], mesh, link);
   for (std::size_t k = 0; k < solid.links(); ++k) {
     Link const& link = mesh.links[solid.mesh_link(k)];
-    std::size_t const law = law_of(link);
-    if (law == 0) continue;
-    LawGroup& group = groups[law - 1];
-    Real const scatter = scatter_of(config.law[law - 1], mesh, link);
+    auto const law = finder(link);
+    if (!law) continue;
+    LawGroup& group = groups[*law];
+    Real const scatter = scatter_of(config.law[*law], mesh, link);
     group.links.push_back(k);
     group.watch.push_back(watch_of(group.criterion, section_of(mesh, link), solid, k, scatter));
-    if (config.law[law - 1].weibull) group.scatter.push_back(scatter);
+    if (config.law[*law].weibull) group.scatter.push_back(scatter);
   }
   for (LawGroup& group : groups)
     if (std::holds_alternative<Cohesive>(group.criterion)) group.history.resize(group.links.size());

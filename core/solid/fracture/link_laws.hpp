@@ -1,5 +1,7 @@
 // Which link follows which law.
 #pragma once
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "core/solid/fracture/fracture_config.hpp"
@@ -20,6 +22,25 @@ struct LawGroup {
   std::vector<Watch> watch;              ///< of each
   std::vector<Real> scatter;             ///< strength of each over the mean; empty: 1
   std::vector<CohesiveHistory> history;  ///< of each, for laws that soften
+};
+
+/// Which law of the scene a link follows: the last that fits it.
+class LawFinder {
+ public:
+  /// Errors: scene errors for unknown bodies and materials.
+  LawFinder(FractureConfig const& config, Mesh const& mesh);
+  /// Its place in FractureConfig::law; nothing when the link never breaks.
+  std::optional<std::size_t> operator()(Link const& link) const;
+
+ private:
+  struct Selector {
+    bool clamps = true;
+    std::optional<Index> body, material;
+    std::array<Index, 2> pair{-1, -1};
+  };
+  bool fits(Selector const& law, Link const& link) const;
+  Mesh const& mesh_;
+  std::vector<Selector> selectors_;
 };
 
 /// The constants of a link of the mesh.
