@@ -163,10 +163,6 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
       scene_error(scene.fluid->euler->at, std::string("fluid.euler.splitting = \"merged\" has no whole steps, which ") +
                                               other + " acts between: take \"pair\" with it");
   }
-  if (coupled && scene.solid->fracture)
-    scene_error(scene.solid->fracture->at,
-                "solid.fracture: the surface that the gas wets does not split along broken links yet. Leave out "
-                "coupling.cut_cells and load the bodies otherwise, or leave out fracture.");
   if (coupled && scene.fluid->products)
     scene_error(scene.fluid->products->at,
                 "fluid.products: cut cells do not carry products yet; use charges of model \"balloon\" beside solids.");
@@ -184,9 +180,10 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     w.flow = std::make_unique<fluid::Flow>(*scene.fluid, *grid, std::vector<int>(owner.begin(), owner.begin() + blocks),
                                            comm);
   if (w.mesh)
-    w.solid =
-        std::make_unique<solid::Solid>(*w.mesh, *scene.solid, std::vector<int>(owner.begin() + blocks, owner.end()),
-                                       comm, w.dimension, coupled ? w.surface.get() : nullptr);
+    w.solid = std::make_unique<solid::Solid>(
+        *w.mesh, *scene.solid, std::vector<int>(owner.begin() + blocks, owner.end()), comm, w.dimension,
+        coupled ? w.surface.get() : nullptr,
+        scene.solid->fracture ? solid::Solid::Opens::anywhere : solid::Solid::Opens::never);
   if (scene.fluid && scene.fluid->euler) w.euler = std::make_unique<fluid::Euler>(*scene.fluid->euler, *w.flow);
   if (scene.fluid && scene.fluid->viscosity) w.viscosity = std::make_unique<fluid::Viscosity>(*scene.fluid, *w.flow);
   if (scene.fluid && scene.fluid->gravity) w.gravity = std::make_unique<fluid::Gravity>(*scene.fluid->gravity, *w.flow);

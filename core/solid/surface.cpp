@@ -66,7 +66,7 @@ std::vector<FreeFace> open_faces(Mesh const& mesh, std::vector<bool> const& brok
 }  // namespace
 
 Surface::Surface(Mesh const& mesh, std::vector<bool> const& broken, Surface const* before)
-    : dimension_(mesh.dimension) {
+    : dimension_(mesh.dimension), broken_(broken) {
   std::vector<std::size_t> const first = first_corners(mesh);
   Groups groups(first.back());
   for (std::size_t l = 0; l < mesh.links.size(); ++l)
@@ -152,7 +152,7 @@ Surface::Surface(Mesh const& mesh, std::vector<bool> const& broken, Surface cons
       if (found == vertex_of_root_.end()) continue;
       auto const old = before->vertex_of_root_.find(before->root_of_corner_[corner]);
       if (old != before->vertex_of_root_.end())
-        origins_[at(found->second)].vertex = old->second;
+        origins_[at(found->second)].vertices = {old->second};
       else
         inner[before->root_of_corner_[corner]];
     }
@@ -170,15 +170,23 @@ Surface::Surface(Mesh const& mesh, std::vector<bool> const& broken, Surface cons
   for (auto const& [face, vertex] : vertex_of_face_) {
     auto const old = before->vertex_of_face_.find(face);
     if (old != before->vertex_of_face_.end()) {
-      origins_[at(vertex)].vertex = old->second;
+      origins_[at(vertex)].vertices = {old->second};
       continue;
     }
+    // A face of the boundary that had no centre, because some of its corners were one: within the triangle it was.
+    auto& was = origins_[at(vertex)].vertices;
+    for (int const v : mesh.shape(face.first).polyhedron.faces[at(face.second)])
+      if (auto const corner = before->vertex_of_root_.find(before->root_of_corner_[first[at(face.first)] + at(v)]);
+          corner != before->vertex_of_root_.end() && std::find(was.begin(), was.end(), corner->second) == was.end())
+        was.push_back(corner->second);
     // The centre of a face that was inside: the mean under both particles that it joined.
     for (std::size_t const l : mesh.links_of(face.first)) {
       Link const& link = mesh.links[l];
       if ((link.i == face.first ? link.face_i : link.face_j) != face.second) continue;
       Vec3 const arm = mesh.face(link.i, link.face_i).centroid;
+      if (link.j == Link::wall || (!before->broken_.empty() && before->broken_[l])) continue;
       Vec3 const there = mesh.particle(link.i).centre + arm - mesh.particle(link.j).centre;
+      was.clear();
       origins_[at(vertex)].corners = {{link.i, arm_of(arm)}, {link.j, arm_of(there)}};
     }
   }

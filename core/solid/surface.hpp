@@ -56,10 +56,10 @@ class Surface {
   void arms(Index vertex, Solid const& solid, std::span<Vec3> arms) const;
   /// Mean over the group of V_I + Omega_I x arm_I with the half-step velocities, m/s.
   Vec3 velocity(Index vertex, Solid const& solid, std::span<Vec3 const> arms) const;
-  /// Where a vertex was in the surface before: one of its vertices, or, where there was no boundary, the mean of the
-  /// images of these corners. Vertices that parted have one origin.
+  /// Where a vertex was in the surface before: the mean of these of its vertices, mostly one, or, where there was no
+  /// boundary, the mean of the images of these corners. Vertices that parted have one origin.
   struct Origin {
-    Index vertex = -1;
+    std::vector<Index> vertices;
     std::vector<Corner> corners;
   };
   Origin const& origin(Index vertex) const { return origins_[static_cast<std::size_t>(vertex)]; }
@@ -76,6 +76,7 @@ class Surface {
   std::vector<Element> elements_;
   std::vector<Corner> corners_;
   std::vector<std::size_t> first_{0};
+  std::vector<bool> broken_;                                  ///< links of the mesh; empty: none
   std::vector<std::size_t> root_of_corner_;                   ///< over the corners of all particles
   std::map<std::size_t, Index> vertex_of_root_;               ///< groups on the boundary
   std::map<std::pair<GlobalId, int>, Index> vertex_of_face_;  ///< centres of faces

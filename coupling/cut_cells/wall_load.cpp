@@ -13,10 +13,10 @@ using fluid::State;
 Real CutCells::half_riemann(State const& u, Vec3 const& wall_velocity, Vec3 const& area) const {
   fluid::Gas const& gas = flow_.gas();
   if (config_.wall_pressure == "cell" || !gas.curve.zero()) return 1;  // the factor is that of an ideal gas
-  Real const c = gas.sound_speed(u);
-  if (!(c > 0)) return 1;
+  Real const c = gas.sound_speed(u), size = norm(area);
+  if (!(c > 0) || !(size > 0)) return 1;  // a triangle whose corners coincide sweeps, but bears nothing
   Vec3 const velocity = Vec3{u[1], u[2], u[3]} / u[0];
-  Real const mach = dot(velocity - wall_velocity, area) / (norm(area) * c);
+  Real const mach = dot(velocity - wall_velocity, area) / (size * c);
   Real const g = gas.gamma;
   Real exact;
   if (mach > 0) {

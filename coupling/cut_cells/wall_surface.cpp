@@ -66,7 +66,7 @@ void WallSurface::replace(std::shared_ptr<solid::Surface const> surface) {
   std::sort(needed.begin(), needed.end());
   needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
   for (GlobalId const id : needed) {
-    Vertex vertex{id, {}, {}, {}, static_cast<Index>(member_.size()), 0};
+    Vertex vertex{id, {}, {}, {}, {}, static_cast<Index>(member_.size()), 0};
     for (solid::Corner const& c : surface_->corners(static_cast<Index>(id)))
       member_.push_back(solid_.local(c.particle));
     vertex.last_member = static_cast<Index>(member_.size());
@@ -81,8 +81,12 @@ void WallSurface::open(std::shared_ptr<solid::Surface const> opened) {
   for (Vertex& v : vertices_) {
     auto const vertex = static_cast<Index>(v.id);
     solid::Surface::Origin const& origin = surface_->origin(vertex);
-    if (origin.vertex >= 0) {
-      v.record = before[static_cast<std::size_t>(find(before, origin.vertex))].record;
+    if (origin.vertices.size() == 1) {
+      v.record = before[static_cast<std::size_t>(find(before, origin.vertices[0]))].record;
+    } else if (!origin.vertices.empty()) {
+      Vec3 sum{};
+      for (Index const old : origin.vertices) sum += before[static_cast<std::size_t>(find(before, old))].record;
+      v.record = sum / static_cast<Real>(origin.vertices.size());
     } else {
       Vec3 sum{};
       for (solid::Corner const& c : origin.corners) {
@@ -92,9 +96,18 @@ void WallSurface::open(std::shared_ptr<solid::Surface const> opened) {
       v.record = sum / static_cast<Real>(origin.corners.size());
     }
     v.position = v.record;
+    Vec3 const jump = v.record - surface_->position(vertex, solid_);
+    if (shortened(jump) != Vec3{}) v.lag = jump;  // else it is swept at once
     surface_->arms(vertex, solid_, arms(v));
   }
   update_velocities();
+}
+
+Vec3 WallSurface::shortened(Vec3 const& lag) const {
+  Real steps = 0;
+  for (int d = 0; d < flow_.grid().dimension; ++d)
+    steps = max(steps, std::abs(lag[d]) / (0.1 * flow_.grid().spacing[d]));
+  return steps > 1 ? (1 - 1 / steps) * lag : Vec3{};
 }
 
 void WallSurface::start() {
@@ -105,7 +118,8 @@ void WallSurface::start() {
 void WallSurface::predict() {
   for (Vertex& v : vertices_) {
     auto const vertex = static_cast<Index>(v.id);
-    v.position = surface_->position(vertex, solid_);
+    v.lag = shortened(v.lag);
+    v.position = surface_->position(vertex, solid_) + v.lag;
     surface_->arms(vertex, solid_, arms(v));
   }
   update_velocities();
@@ -294,20 +308,21 @@ void WallSurface::write(parallel::ArchiveWriter& file) const {
   for (Vertex const& v : vertices_) {
     if (solid_.owner(surface_->corners(static_cast<Index>(v.id)).front().particle) != comm_.rank()) continue;
     ids.push_back(v.id);
-    for (Vec3 const& x : {v.record, v.velocity}) rows.insert(rows.end(), {x.x, x.y, x.z});
+    for (Vec3 const& x : {v.record, v.velocity, v.lag}) rows.insert(rows.end(), {x.x, x.y, x.z});
   }
-  file.sparse("coupling/vertices", 6, ids, rows);
+  file.sparse("coupling/vertices", 9, ids, rows);
 }
 
 void WallSurface::read(parallel::ArchiveReader& file) {
-  parallel::ArchiveReader::Sparse const stored = file.sparse("coupling/vertices", 6);
+  parallel::ArchiveReader::Sparse const stored = file.sparse("coupling/vertices", 9);
   for (std::size_t s = 0; s < stored.ids.size(); ++s) {
     Index const at = local(stored.ids[s]);
     if (at < 0) continue;
-    double const* row = stored.data.data() + 6 * s;
+    double const* row = stored.data.data() + 9 * s;
     Vertex& v = vertices_[static_cast<std::size_t>(at)];
     v.record = v.position = {row[0], row[1], row[2]};
     v.velocity = {row[3], row[4], row[5]};
+    v.lag = {row[6], row[7], row[8]};
   }
 }
 

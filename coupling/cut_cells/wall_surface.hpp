@@ -60,7 +60,7 @@ class WallSurface {
   /// The predicted positions become those of the record: the boundary rests in this step.
   void hold();
 
-  /// Rows by vertex id of the vertices this rank keeps: record position, velocity (6 columns).
+  /// Rows by vertex id of the vertices this rank keeps: record position, velocity, lag (9 columns).
   void write(parallel::ArchiveWriter& file) const;
   void read(parallel::ArchiveReader& file);
   void save() { saved_ = vertices_, saved_surface_ = surface_; }
@@ -73,8 +73,11 @@ class WallSurface {
   struct Vertex {
     GlobalId id;
     Vec3 record, position, velocity;
+    Vec3 lag;  ///< from the mean of its particles, after a break that moved this far; taken back in steps
     Index first_member, last_member;
   };
+  /// The part of a lag that is left after a step: a tenth of a cell at a time.
+  Vec3 shortened(Vec3 const& lag) const;
   std::span<Vec3> arms(Vertex const& v) {
     return std::span(arm_).subspan(static_cast<std::size_t>(v.first_member),
                                    static_cast<std::size_t>(v.last_member - v.first_member));
