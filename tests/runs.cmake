@@ -12,6 +12,7 @@ endfunction()
 brisance_same_digest(explosion-cylinder ${scenes}/explosion-cylinder.toml 60)
 brisance_same_digest(explosion-box-3d ${scenes}/explosion-box-3d.toml 24 --set fluid.block=24)
 brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40)
+brisance_same_digest(bursting-shell ${scenes}/bursting-shell.toml 80)
 brisance_same_digest(bodies-leave ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-leave.toml 240)
 brisance_same_digest(jwl-charge ${PROJECT_SOURCE_DIR}/tests/support/scenes/jwl-charge.toml 60)
 brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 60)
@@ -55,11 +56,6 @@ brisance_expect(scene_wall_leaves_its_cell CODE 2 LABELS unit ABSENT ${runs}/wal
 brisance_expect(scene_more_ranks_than_blocks CODE 2 RANKS 3 LABELS parallel ABSENT ${runs}/ranks
                 MESSAGE "explosion-cylinder.toml:[0-9]+:[0-9]+: 3 ranks, but the scene has only 2 fluid blocks"
                 COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/ranks --set fluid.block=300)
-# A gas would have to follow the cracks.
-brisance_expect(scene_fracture_in_a_gas CODE 2 LABELS unit ABSENT ${runs}/cracks
-                MESSAGE "solid.fracture: the surface that the gas wets does not split"
-                COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/cracks
-                        --set "solid.fracture.law=[{ elongation = { at_break = 0.1 } }]")
 brisance_expect(scene_fracture_without_links CODE 2 LABELS unit ABSENT ${runs}/no-links
                 MESSAGE "solid.fracture breaks links, and the scene has none"
                 COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/free-particles.toml --out ${runs}/no-links)
