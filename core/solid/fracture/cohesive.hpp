@@ -1,6 +1,8 @@
 // Cohesive links: strength and toughness both hold, whatever the size of the particles.
 // Source: theory/solid.md section 14, criterion 4.
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/solid/fracture/link_state.hpp"
@@ -12,17 +14,20 @@ class Keys;
 
 namespace brisance::solid {
 
-/// What a softening link remembers, m. All zero until its strength is reached.
+/// What a softening link remembers. All zero until its strength is reached.
 struct CohesiveHistory {
-  Real largest = 0;  ///< largest effective opening so far
-  Real onset = 0;    ///< delta_0
-  Real end = 0;      ///< delta_f
+  Real largest = 0;  ///< largest effective opening so far, m
+  Real onset = 0;    ///< delta_0, m
+  Real end = 0;      ///< delta_f, m
+  Real peak = 0;     ///< T_0, Pa
   bool operator==(CohesiveHistory const&) const = default;
 };
 
-/// Linear softening of the traction from f_t at delta_0 to zero at delta_f over the effective opening
-/// delta = sqrt([du_n]+^2 + |du_t|^2 / beta^2), unloading towards the origin. delta_f is set at the onset so that the
-/// link dissipates G_c S in the mode it then has, exactly for proportional loading: delta_f = delta_0 G_c / (Y_0 / S).
+/// Softening begins where sqrt([sigma_n]+^2 + tau^2 / beta^2) = f_t. From there the traction T that does the work of
+/// the link, T = (1 - d) ([sigma_n]+ [du_n]+ + tau |du_t|) / delta, falls linearly from T_0 at delta_0 to zero at
+/// delta_f = 2 G_c / T_0, over the effective opening delta = sqrt([du_n]+^2 + |du_t|^2 / beta^2): the work is G_c in
+/// the mode at the onset. d follows from the stresses at hand and not from the moduli at the onset: those change with d
+/// when nu is not zero, and with them the work would miss G_c. Unloading keeps d.
 struct Cohesive {
   static constexpr char const* name = "cohesive";
   static constexpr bool softens = true;
@@ -36,24 +41,25 @@ struct Cohesive {
   Wants wants() const { return {true, false, false, false}; }
 
   Real safe_traction(Real scatter, Real) const { return scatter * tensile_strength * min(1, beta); }
-  /// 1 - d of the link after this state; updates the history.
+  /// Largest 1 - d that a link in this state can have; updates the history.
   Real intact(LinkState const& s, Real scatter, CohesiveHistory& history) const {
     Real const open = std::max(s.opening, 0.0), slip = s.slip / beta;
     Real const opening = std::sqrt(open * open + slip * slip);
+    Release const work{0.5 * std::max(s.normal, 0.0) * open, 0.5 * s.shear * s.slip};  // of an intact link
     if (history.end == 0) {
       Real const normal = std::max(s.normal, 0.0), shear = s.shear / beta;
       Real const over = std::sqrt(normal * normal + shear * shear) / (scatter * tensile_strength);
-      if (over < 1 || opening == 0) return 1;
-      // The step has passed the onset by the factor `over`: scale back along the ray.
-      Release g = driving_release(s);
-      g.opening -= s.flexure;
+      if (over < 1 || !(work.total() > 0)) return 1;
       MixedToughness const critical{toughness, shear_toughness.value_or(toughness), mixing_exponent};
-      history.onset = opening / over;
-      history.end = history.onset * (critical(g) / (g.total() / (over * over)));
+      history.onset = opening / over;  // the step has passed it: back along the ray
+      history.peak = 2 * work.total() / (opening * over);
+      history.end = 2 * critical(work) / history.peak;
     }
-    history.largest = std::max(history.largest, opening);
-    if (history.largest >= history.end) return 0;  // at once when one link holds more than G_c at its onset
-    return history.onset / history.largest * (history.end - history.largest) / (history.end - history.onset);
+    if (opening < history.largest) return 1;
+    history.largest = opening;
+    if (opening >= history.end) return 0;  // at once when a link holds more than G_c at its onset
+    Real const traction = history.peak * (history.end - opening) / (history.end - history.onset);
+    return std::min(traction * opening / (2 * work.total()), 1.0);
   }
 
   /// Longest link that can soften: beyond it the energy stored at the strength exceeds the toughness, m.

@@ -10,7 +10,7 @@ namespace brisance::solid {
 namespace {
 
 constexpr std::uint32_t cohesive_kind = 0x434f4845;  // "COHE"
-constexpr int history_columns = 3;
+constexpr int history_columns = 4;
 
 }  // namespace
 
@@ -21,7 +21,8 @@ std::vector<double> Fracture::pack_history() const {
   for (LawGroup const& group : groups_)
     for (std::size_t n = 0; n < group.history.size(); ++n) of[group.links[n]] = group.history[n];
   for (std::size_t k = 0; k < of.size(); ++k)
-    if (solid_.link_store().end_i(k) < solid_.owned()) rows.insert(rows.end(), {of[k].largest, of[k].onset, of[k].end});
+    if (solid_.link_store().end_i(k) < solid_.owned())
+      rows.insert(rows.end(), {of[k].largest, of[k].onset, of[k].end, of[k].peak});
   return rows;
 }
 
@@ -29,7 +30,7 @@ void Fracture::unpack_history(std::span<double const> rows) {
   for (LawGroup& group : groups_)
     for (std::size_t n = 0; n < group.history.size(); ++n) {
       double const* row = rows.data() + history_columns * group.links[n];
-      group.history[n] = {row[0], row[1], row[2]};
+      group.history[n] = {row[0], row[1], row[2], row[3]};
     }
 }
 
@@ -82,7 +83,7 @@ void Fracture::keep(Plan& plan) {
       for (std::size_t n = 0; n < group.history.size(); ++n) {
         CohesiveHistory const& h = group.history[n];
         if (h.end == 0 || solid_.link_store().end_i(group.links[n]) >= solid_.owned()) continue;
-        std::array<double, history_columns> const bits{h.largest, h.onset, h.end};
+        std::array<double, history_columns> const bits{h.largest, h.onset, h.end, h.peak};
         digest.add(cohesive_kind, static_cast<GlobalId>(solid_.mesh_link(group.links[n])), bits);
       }
   };

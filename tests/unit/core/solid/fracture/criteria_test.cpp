@@ -143,7 +143,11 @@ TEST(Cohesive, SoftensLinearlyAndUnloadsTowardsTheOrigin) {
   CohesiveHistory history;
   EXPECT_EQ(law.intact(pulled(0.0099, 0), 1, history), 1);
   EXPECT_EQ(history, CohesiveHistory{});
-  auto const traction = [&](Real opening) { return law.intact(pulled(opening, 0), 1, history) * opening; };
+  Real intact = 1;  // the least so far, as the effect keeps it
+  auto const traction = [&](Real opening) {
+    intact = min(intact, law.intact(pulled(opening, 0), 1, history));
+    return intact * opening;
+  };
   EXPECT_NEAR(traction(0.015), 0.01 * (0.03 - 0.015) / 0.02, 1e-15);
   EXPECT_NEAR(traction(0.02), 0.005, 1e-15);
   EXPECT_NEAR(history.end, 0.03, 1e-15);
