@@ -25,6 +25,7 @@ brisance_same_digest(double-mach ${PROJECT_SOURCE_DIR}/tests/support/scenes/doub
 brisance_same_digest(viscous-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-box.toml 40)
 brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-bodies.toml 60)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
+brisance_same_digest(rods-and-plates ${PROJECT_SOURCE_DIR}/tests/support/scenes/rods-and-plates.toml 120)
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
@@ -53,6 +54,9 @@ brisance_expect(scene_wall_leaves_its_cell CODE 2 LABELS unit ABSENT ${runs}/wal
 brisance_expect(scene_more_ranks_than_blocks CODE 2 RANKS 3 LABELS parallel ABSENT ${runs}/ranks
                 MESSAGE "explosion-cylinder.toml:[0-9]+:[0-9]+: 3 ranks, but the scene has only 2 fluid blocks"
                 COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/ranks --set fluid.block=300)
+brisance_expect(run_rods-and-plates CODE 0 LABELS verification
+                MESSAGE "momentum [0-9.]+e-1[4-9], exchange energy 0.0e.00, energy [0-9.]+e-0[7-9]"
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/rods-and-plates.toml --out ${runs}/rods-and-plates-whole)
 brisance_expect(check_explosion-cylinder CODE 0 LABELS unit MESSAGE "coupling.cut_cells +on.*180000 cells.*50 particles, 50 links"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --ranks 4)
 brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity +off: .*output.gauges +on.*416 particles.*charges +fluid.charge.0.: 1 kg of gas with 4.184 MJ above"
