@@ -129,6 +129,8 @@ class Solid {
   Real stable_step() const { return stable_limit().dt; }
   /// The bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
   StableStep link_limit() const;
+  /// The bound 2/omega_I of each owned particle, s; 1e300 where it has no link or does not move freely.
+  std::span<double const> step_limits() const;
 
   /// Adds the sums over owned particles and links to `to`; add over ranks with Comm::sum.
   void measure(Measures& to) const;
