@@ -2,7 +2,10 @@ brisance_test(solid_unit
   SOURCES unit/core/solid/polyhedron_test.cpp unit/core/solid/shapes_test.cpp unit/core/solid/mesh_test.cpp
           unit/core/solid/link_law_test.cpp unit/core/solid/surface_test.cpp unit/core/solid/solid_test.cpp
   LINKS brisance::solid LABELS unit)
-brisance_test(solid_meshes SOURCES unit/core/solid/meshes/gmsh_test.cpp LINKS brisance::solid LABELS unit)
+brisance_test(solid_meshes
+  SOURCES unit/core/solid/meshes/gmsh_test.cpp unit/core/solid/meshes/surface_test.cpp
+          unit/core/solid/meshes/quality_test.cpp
+  LINKS brisance::solid LABELS unit)
 brisance_test(solid_statics SOURCES verification/solid/statics_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_rods SOURCES verification/solid/rods_test.cpp LINKS brisance::solid Eigen3::Eigen LABELS verification)
 brisance_test(solid_rotation SOURCES verification/solid/rotation_test.cpp LINKS brisance::solid Eigen3::Eigen
