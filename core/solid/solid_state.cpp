@@ -71,12 +71,34 @@ void Solid::measure(Measures& to) const {
     }
   }
   for (std::size_t k = 0; k < links_.count(); ++k) {
-    Index const i = links_.end_i(k), j = links_.end_j(k);
-    if (i >= owned_) continue;
-    to.add(Measures::elastic, link_energy(links_.rest(k), ends_of(pose_[at(i)], pose_[at(j)])));
+    if (links_.end_i(k) < owned_) to.add(Measures::elastic, energy_of(k));
   }
   for (LoadedFace const& face : loaded_)
     if (face.particle < owned_) to.add(Measures::elastic, -face.stored);
+}
+
+Vec3 Solid::spin_of(Index particle, Vec3 const& omega) const {
+  Quaternion const& q = pose_[at(particle)].q;
+  return rotate(q, symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].tensor) * rotate(conjugate(q), omega));
+}
+
+Vec3 Solid::omega_of(Index particle, Vec3 const& spin) const {
+  Quaternion const& q = pose_[at(particle)].q;
+  return rotate(q, symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].inverse) * rotate(conjugate(q), spin));
+}
+
+LinkEnds<double> Solid::ends(std::size_t link) const {
+  return ends_of(pose_[at(links_.end_i(link))], pose_[at(links_.end_j(link))]);
+}
+
+LinkWrench<double> Solid::wrench_of(std::size_t link) const {
+  return link_wrench(links_.rest(link), ends(link), pressure_[at(links_.end_i(link))],
+                     pressure_[at(links_.end_j(link))]);
+}
+
+Real Solid::energy_of(std::size_t link) const {
+  Real const share = mesh_.is_mirror(mesh_.links[mesh_link_[link]]) ? 0.5 : 1;
+  return share * link_energy(links_.rest(link), ends(link));
 }
 
 Reactions Solid::take_reactions() {
