@@ -25,6 +25,9 @@ brisance_same_digest(double-mach ${PROJECT_SOURCE_DIR}/tests/support/scenes/doub
 brisance_same_digest(viscous-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-box.toml 40)
 brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-bodies.toml 60)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
+brisance_same_digest(supports ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports.toml 120)
+brisance_same_digest(kinetic ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports.toml 120
+                     --set "solid.damping={law=\"kinetic\", residual=1e-3}")
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
@@ -33,6 +36,7 @@ function(brisance_same_gauges name scene steps)
   set_tests_properties(same_gauges.${name} PROPERTIES LABELS "parallel;restart" PROCESSORS 2 TIMEOUT 600)
 endfunction()
 brisance_same_gauges(gauges ${PROJECT_SOURCE_DIR}/tests/support/scenes/gauges.toml 160)
+brisance_same_gauges(supports ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports.toml 120)
 brisance_same_gauges(merged ${PROJECT_SOURCE_DIR}/tests/support/scenes/gauges-in-a-box.toml 24)
 brisance_same_gauges(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 40)
 brisance_same_gauges(explosion-box-3d ${scenes}/explosion-box-3d.toml 12 --set fluid.block=32 --set output.interval=1e-5

@@ -9,3 +9,6 @@ brisance_test(solid_rotation SOURCES verification/solid/rotation_test.cpp LINKS 
 brisance_test(solid_stable_step SOURCES verification/solid/stable_step_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_parallel SOURCES parallel/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
 brisance_test(solid_restart SOURCES restart/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS restart)
+brisance_test(solid_supports SOURCES verification/solid/supports_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_damping SOURCES verification/solid/damping_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_supports_parallel SOURCES parallel/supports_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
