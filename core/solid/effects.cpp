@@ -3,8 +3,11 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "core/solid/damping/damping.hpp"
 #include "core/solid/fracture/fracture.hpp"
 #include "core/solid/rows.hpp"
+#include "core/solid/supports/moving_supports.hpp"
+#include "parallel/archive.hpp"
 
 namespace brisance::solid {
 
@@ -49,12 +52,16 @@ void Dynamics::join(Plan& plan) {
   keep.read = [this](parallel::ArchiveReader& file) {
     solid_.unpack(solid_.owned_ids(), file.rows("solid/particles", Solid::row_size, rows_of(solid_.owned_ids())));
     solid_.exchange_pose();
-    if (!solid_.damageable()) return;
+    if (!solid_.damageable()) {
+      solid_.compute_strains();  // reactions and gauges read them before the next forces
+      return;
+    }
     std::vector<GlobalId> links;
     for (std::size_t k = 0; k < solid_.links(); ++k) links.push_back(static_cast<GlobalId>(solid_.mesh_link(k)));
     auto const intact = file.rows("solid/links_intact", 1, rows_of(links));
     for (std::size_t k = 0; k < links.size(); ++k)
       if (intact[k] != 1) solid_.weaken(k, intact[k]);
+    solid_.compute_strains();
   };
   keep.digest = [this](parallel::Digest& digest) { solid_.digest(digest); };
   plan.keep(std::move(keep));
@@ -78,6 +85,8 @@ void Dynamics::start() {
 
 std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm& comm) {
   std::vector<std::unique_ptr<Effect>> effects;
+  if (!solid.mesh().motions.empty()) effects.push_back(std::make_unique<MovingSupports>(solid));
+  if (config.damping) effects.push_back(std::make_unique<Damping>(*config.damping, config, solid, comm));
   if (config.fracture) {
     require(config.links.has_value(), config.fracture->at,
             "solid.fracture breaks links, and the scene has none: add links = {} to [solid]");
