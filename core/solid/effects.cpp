@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "core/solid/loads/absorbing_faces.hpp"
+#include "core/solid/loads/point_loads.hpp"
+#include "core/solid/loads/surface_loads.hpp"
 #include "parallel/archive.hpp"
 
 namespace brisance::solid {
@@ -86,8 +89,13 @@ void Dynamics::start() {
   if (config_.links) solid_.compute_forces();
 }
 
-std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const&, Solid&, parallel::Comm&) {
+std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm&) {
   std::vector<std::unique_ptr<Effect>> effects;
+  if (!config.pressure.empty() || !config.traction.empty() || !config.blast.empty())
+    effects.push_back(std::make_unique<SurfaceLoads>(config, solid));
+  if (!config.point_force.empty() || !config.moment_tensor.empty())
+    effects.push_back(std::make_unique<PointLoads>(config, solid));
+  if (!config.absorbing.empty()) effects.push_back(std::make_unique<AbsorbingFaces>(config, solid));
   return effects;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/solid/face_tractions.hpp"
 #include "core/solid/halo.hpp"
 #include "core/solid/links/link_store.hpp"
 #include "core/solid/measures.hpp"
@@ -75,13 +76,17 @@ class Solid {
   void finish_exchange();
   /// Internal forces and torques of owned particles at the current poses.
   void compute_forces();
+  /// The first half of it: opened volumes and pressures. Links of any state of damage.
+  void compute_strains();
   /// A step without a fluid: kick_and_drift, exchange, forces, half_kick.
   void step(Real dt);
 
-  /// Tractions on boundary faces until the next call; the same list on every rank.
-  /// Expects: free faces of the mesh, by particle.  They enter forces and volumetric strains at the next
-  /// compute_forces.
+  /// Tractions on boundary faces until the next call; the same list on every rank, each face once.
+  /// Expects: free faces of the mesh.  They enter forces and volumetric strains at the next compute_forces.
   void load_faces(std::span<FaceLoad const> loads);
+  /// The loaded faces of this rank, in the order of load_faces. After a change of their tractions, tractions_changed().
+  FaceTractions& face_tractions() { return face_tractions_; }
+  void tractions_changed() { face_tractions_.open(face_opening_); }
 
   // Links of this rank, in global order: those of owned particles and of the first layer of ghosts.
   LinkStore const& link_store() const { return links_; }
@@ -192,12 +197,7 @@ class Solid {
   LinkStore links_;
   std::vector<double> intact_;  // 1 - d of the links; empty without damage
   bool volumetric_ = false;     // some lambda is not zero
-  struct LoadedFace {
-    Index particle;
-    Vec3 force, arm;  // body frame
-    Real stored;      // S d t_n^2 / 4G
-  };
-  std::vector<LoadedFace> loaded_;
+  FaceTractions face_tractions_;
   Reactions reactions_;
   mutable std::vector<double> link_limits_;
 };

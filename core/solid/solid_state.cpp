@@ -75,8 +75,8 @@ void Solid::measure(Measures& to) const {
     if (i >= owned_) continue;
     to.add(Measures::elastic, link_energy(links_.rest(k), ends_of(pose_[at(i)], pose_[at(j)])));
   }
-  for (LoadedFace const& face : loaded_)
-    if (face.particle < owned_) to.add(Measures::elastic, -face.stored);
+  for (FaceTractions::Face const& face : face_tractions_.faces())
+    if (face.particle < owned_) to.add(Measures::elastic, FaceTractions::energy(face));
 }
 
 Reactions Solid::take_reactions() {

@@ -1,0 +1,169 @@
+#include "core/solid/loads/surface_loads.hpp"
+
+#include <algorithm>
+
+#include "core/base/errors.hpp"
+
+namespace brisance::solid {
+namespace {
+
+std::string numbered(char const* kind, std::size_t i) { return std::string(kind) + "[" + std::to_string(i) + "]"; }
+
+}  // namespace
+
+SurfaceLoads::SurfaceLoads(SolidConfig const& config, Solid& solid) : config_(config), solid_(solid) {
+  find_faces();
+  set_tractions(0);
+}
+
+void SurfaceLoads::find_faces() {
+  Mesh const& mesh = solid_.mesh();
+  std::vector<std::vector<FaceRef>> wanted;  // of each load, in the order of the scene
+  for (std::size_t i = 0; i < config_.pressure.size(); ++i) {
+    PressureConfig const& p = config_.pressure[i];
+    std::string const name = numbered("solid.pressure", i);
+    loads_.push_back({History(p, name, p.at), true, {}});
+    wanted.push_back(select_faces(p, mesh, name, p.at));
+  }
+  for (std::size_t i = 0; i < config_.traction.size(); ++i) {
+    TractionConfig const& t = config_.traction[i];
+    std::string const name = numbered("solid.traction", i);
+    for (int d = mesh.dimension; d < 3; ++d)
+      require(t.traction[d] == 0, t.at, name + ".traction leaves the plane of the solid; make that component 0");
+    loads_.push_back({History(t, name, t.at), t.follow, {}});
+    wanted.push_back(select_faces(t, mesh, name, t.at));
+  }
+  for (std::size_t i = 0; i < config_.blast.size(); ++i)
+    wanted.push_back(select_faces(config_.blast[i], mesh, numbered("solid.blast", i), config_.blast[i].at));
+
+  std::vector<FaceRef> all;
+  for (auto const& faces : wanted) all.insert(all.end(), faces.begin(), faces.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  std::vector<FaceLoad> loads;
+  std::vector<FaceRef> here;
+  for (FaceRef const& f : all) {
+    loads.push_back({f.particle, f.face, {}});
+    if (solid_.local(f.particle) >= 0) here.push_back(f);
+  }
+  solid_.load_faces(loads);
+  auto const place = [&](FaceRef const& f) {
+    return static_cast<std::size_t>(std::lower_bound(here.begin(), here.end(), f) - here.begin());
+  };
+  for (std::size_t l = 0; l < wanted.size(); ++l)
+    for (FaceRef const& f : wanted[l]) {
+      Vec3 const normal = mesh.face(f.particle, f.face).normal;
+      if (l >= loads_.size()) {  // every rank looks at every face: all meet the same scene error
+        std::size_t const i = l - loads_.size();
+        BlastConfig const& blast = config_.blast[i];
+        Vec3 const centroid = mesh.particle(f.particle).centre + mesh.face(f.particle, f.face).centroid;
+        BlastWave const wave = blast_wave(blast, mesh.dimension, centroid, normal, numbered("solid.blast", i));
+        if (solid_.local(f.particle) >= 0) blasts_.push_back({place(f), wave});
+      } else if (solid_.local(f.particle) >= 0) {
+        std::size_t const t = l - config_.pressure.size();
+        loads_[l].parts.push_back({place(f), l < config_.pressure.size() ? -config_.pressure[l].pressure * normal
+                                                                         : config_.traction[t].traction});
+      }
+    }
+  auto const faces = solid_.face_tractions().faces();
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    if (loaded_.empty() || loaded_.back().particle != faces[k].particle)
+      loaded_.push_back({faces[k].particle, k, k, {}, {}});
+    loaded_.back().last = k + 1;
+  }
+  std::erase_if(loaded_, [&](Loaded const& l) { return l.particle >= solid_.owned(); });
+  normal_before_.assign(faces.size(), 0);
+  extension_before_.assign(faces.size(), 0);
+}
+
+void SurfaceLoads::set_tractions(Real time) {
+  time_ = time;
+  auto const faces = solid_.face_tractions().faces();
+  for (FaceTractions::Face& f : faces) f.traction = {};
+  for (Load const& load : loads_) {
+    Real const factor = load.history.at(time);
+    for (Part const& part : load.parts) {
+      FaceTractions::Face& f = faces[part.face];
+      Vec3 const t = factor * part.traction;
+      f.traction += load.follow ? t : rotate(conjugate(solid_.pose()[static_cast<std::size_t>(f.particle)].q), t);
+    }
+  }
+  for (BlastPart const& part : blasts_) {
+    FaceTractions::Face& f = faces[part.face];
+    f.traction -= part.wave.pressure(time) * f.normal;
+  }
+  solid_.tractions_changed();
+}
+
+void SurfaceLoads::measure_wrenches() {
+  auto const faces = solid_.face_tractions().faces();
+  for (Loaded& l : loaded_) {
+    Vec3 force{}, torque{};
+    for (std::size_t k = l.first; k < l.last; ++k) {
+      Vec3 const f = faces[k].area * faces[k].traction;
+      force += f;
+      torque += cross(faces[k].arm, f);
+    }
+    Quaternion const& q = solid_.pose()[static_cast<std::size_t>(l.particle)].q;
+    l.after = {rotate(q, force), rotate(q, torque)};
+  }
+}
+
+void SurfaceLoads::begin_step(Clock const& clock) {
+  auto const faces = solid_.face_tractions().faces();
+  for (Loaded& l : loaded_) {
+    l.before = l.after;
+    Real const pressure = solid_.pressure()[static_cast<std::size_t>(l.particle)];
+    for (std::size_t k = l.first; k < l.last; ++k) {
+      normal_before_[k] = faces[k].normal_traction();
+      extension_before_[k] = FaceTractions::extension(faces[k], pressure);
+    }
+  }
+  set_tractions(clock.time + clock.dt);
+}
+
+void SurfaceLoads::end_step(Clock const& clock) {
+  measure_wrenches();
+  auto const faces = solid_.face_tractions().faces();
+  for (Loaded const& l : loaded_) {
+    auto const p = static_cast<std::size_t>(l.particle);
+    account_.add(clock.dt, l.before, l.after, solid_.half_velocity()[p]);
+    Real at_rest = 0;  // a changing t_n changes the energy of a face at fixed positions
+    for (std::size_t k = l.first; k < l.last; ++k)
+      at_rest -= 0.5 * (extension_before_[k] + FaceTractions::extension(faces[k], solid_.pressure()[p])) *
+                 (faces[k].normal_traction() - normal_before_[k]);
+    account_.add_work(at_rest);
+  }
+}
+
+void SurfaceLoads::join(Plan& plan) {
+  auto const bytes = [this] {
+    std::size_t parts = blasts_.size() * sizeof(BlastPart) + loaded_.size() * sizeof(Loaded);
+    for (Load const& load : loads_) parts += load.parts.size() * sizeof(Part);
+    return parts + normal_before_.size() * (2 * sizeof(Real) + sizeof(FaceTractions::Face));
+  };
+  if (!config_.pressure.empty()) plan.effect("solid.pressure", bytes);
+  if (!config_.traction.empty()) plan.effect("solid.traction", bytes);
+  if (!config_.blast.empty()) plan.effect("solid.blast", bytes);
+  plan.at(Stage::drift, [this](Clock const& c) { begin_step(c); });
+  plan.at(Stage::kick_again, [this](Clock const& c) { end_step(c); });
+  plan.account([this](Ledger& ledger) { account_.book(ledger); });
+  Plan::Keep keep;
+  keep.save = [this] { saved_time_ = time_; };
+  keep.restore = [this] {
+    set_tractions(saved_time_);
+    measure_wrenches();
+    account_.clear();
+  };
+  keep.write = [](parallel::ArchiveWriter&) {};
+  keep.read = [this](parallel::ArchiveReader& file) { set_tractions(file.real("time")); };
+  keep.digest = [](parallel::Digest&) {};
+  plan.keep(std::move(keep));
+}
+
+void SurfaceLoads::start() {
+  solid_.compute_strains();
+  measure_wrenches();
+}
+
+}  // namespace brisance::solid
