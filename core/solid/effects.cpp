@@ -81,12 +81,15 @@ void Dynamics::join(Plan& plan) {
     });
     plan.limit("solid.links",
                [this](Clock const&) { return solid_.stable_limit().by_rotation ? 1e300 : solid_.stable_step(); });
+  } else {
+    // Other effects add to the forces, which have to start from nothing.
+    plan.at(Stage::forces, [this](Clock const&) { solid_.compute_forces(); });
   }
 }
 
 void Dynamics::start() {
   solid_.exchange_pose();
-  if (config_.links) solid_.compute_forces();
+  solid_.compute_forces();
 }
 
 std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm&) {

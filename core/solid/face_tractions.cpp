@@ -12,7 +12,7 @@ void FaceTractions::add(Mesh const& mesh, GlobalId particle, int face, Index loc
   require(distance != 0, Failure::internal,
           "a traction acts on face " + std::to_string(face) + " of particle " + std::to_string(particle) +
               ", which is not free");
-  faces_.push_back({local, traction, geometry.normal, geometry.centroid, geometry.area,
+  faces_.push_back({local, face, traction, geometry.normal, geometry.centroid, geometry.area,
                     geometry.area * distance / (2 * mesh.material(particle).shear())});
 }
 

@@ -14,6 +14,7 @@ class FaceTractions {
  public:
   struct Face {
     Index particle;    ///< local
+    int face;          ///< of its shape
     Vec3 traction{};   ///< body frame, Pa; may be changed, then `open`
     Vec3 normal, arm;  ///< body frame; arm from the mass centre to the centroid, m
     Real area;         ///< m2

@@ -63,15 +63,20 @@ std::vector<FaceRef> select_faces(FaceSelection const& selection, Mesh const& me
     Vec3 const place = mesh.particle(face.particle).centre + geometry.centroid;
     for (int d = 0; d < 3; ++d) low[d] = min(low[d], place[d]), high[d] = max(high[d], place[d]);
     if (normal && dot(*normal, geometry.normal) < least - 1e-12) continue;
+    if (selection.facing) {
+      Vec3 way = *selection.facing - place;
+      for (int d = mesh.dimension; d < 3; ++d) way[d] = 0;
+      if (dot(way, geometry.normal) <= 1e-9 * norm(way)) continue;
+    }
     if (in_box(selection, mesh, face)) chosen.push_back({face.particle, face.face});
   }
   if (chosen.empty())
     scene_error(at, load + " selects no face: none of the " + std::to_string(candidates) + " free boundary faces of " +
                         (selection.body ? "solid.body \"" + *selection.body + "\"" : "the solid") +
                         (candidates > 0 ? ", with centres from " + text(low) + " to " + text(high) + " m," : "") +
-                        " lies with all its corners between low and high and has the normal asked for (within " +
+                        " lies with all its corners between low and high, has the normal asked for (within " +
                         std::to_string(selection.within * 180 / std::acos(-1.0)) +
-                        " deg). Make the box larger or drop a condition");
+                        " deg) and looks at the point `facing`. Make the box larger or drop a condition");
   std::sort(chosen.begin(), chosen.end());
   return chosen;
 }

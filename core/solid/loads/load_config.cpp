@@ -10,6 +10,7 @@ void FaceSelection::declare(Keys<T>& k) {
   k("low", &T::low, "m", "lower corner of a box in which a face lies with all its corners; not given: no limit");
   k("high", &T::high, "m", "upper corner of that box; not given: no limit");
   k("normal", &T::normal, "1", "outward direction of the faces that are meant; not given: any");
+  k("facing", &T::facing, "m", "a point that the faces look at, such as the centre of a vessel: its inner faces");
   k("within", &T::within, "rad", "largest angle between the normal of a face and `normal`").above(0).at_most(3.2);
 }
 

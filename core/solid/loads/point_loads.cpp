@@ -5,6 +5,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/solid/loads/face_selection.hpp"
+#include "core/solid/loads/free_step.hpp"
 
 namespace brisance::solid {
 namespace {
@@ -71,6 +72,7 @@ void PointLoads::add_force(PointForceConfig const& config, std::string const& na
           name + ".force leaves the plane of the solid; make that component 0");
   GlobalId const p = particle_at(mesh, config.position, config.body, name, config.at);
   histories_.emplace_back(config, name, config.at);
+  longest_step_ = min(longest_step_, free_step(mesh, p));
   add_part(p, config.follow ? solid_.local(p) : -1, config.force,
            in_plane(config.position - mesh.particle(p).centre, mesh.dimension));
 }
@@ -120,9 +122,10 @@ void PointLoads::add_to_forces() const {
 }
 
 void PointLoads::join(Plan& plan) {
-  auto const bytes = [this] { return parts_.size() * sizeof(Part); };
-  if (!config_.point_force.empty()) plan.effect("solid.point_force", bytes);
-  if (!config_.moment_tensor.empty()) plan.effect("solid.moment_tensor", bytes);
+  auto const nothing = [] { return std::size_t{0}; };
+  if (!config_.point_force.empty()) plan.effect("solid.point_force", nothing);
+  if (!config_.moment_tensor.empty()) plan.effect("solid.moment_tensor", nothing);
+  plan.effects().back().bytes = [this] { return parts_.size() * sizeof(Part); };
   plan.at(Stage::drift, [this](Clock const&) {
     for (Part& part : parts_) part.before = part.after;
   });
@@ -134,6 +137,7 @@ void PointLoads::join(Plan& plan) {
     for (Part const& part : parts_)
       account_.add(c.dt, part.before, part.after, solid_.half_velocity()[static_cast<std::size_t>(part.particle)]);
   });
+  if (longest_step_ < 1e300) plan.limit("solid.loads", [this](Clock const&) { return longest_step_; });
   plan.account([this](Ledger& ledger) { account_.book(ledger); });
   Plan::Keep keep;
   keep.save = [this] { saved_time_ = time_; };

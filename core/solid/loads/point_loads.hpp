@@ -39,6 +39,7 @@ class PointLoads : public Effect {
   std::vector<History> histories_;
   std::vector<Part> parts_;
   LoadAccount account_;
+  Real longest_step_ = 1e300;  ///< s
   Real time_ = 0, saved_time_ = 0;
   bool resumed_ = false;  ///< a checkpoint holds the forces of its time
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/errors.hpp"
+#include "core/solid/loads/free_step.hpp"
 
 namespace brisance::solid {
 namespace {
@@ -43,6 +44,7 @@ void SurfaceLoads::find_faces() {
   std::vector<FaceLoad> loads;
   std::vector<FaceRef> here;
   for (FaceRef const& f : all) {
+    longest_step_ = min(longest_step_, free_step(mesh, f.particle));
     loads.push_back({f.particle, f.face, {}});
     if (solid_.local(f.particle) >= 0) here.push_back(f);
   }
@@ -142,11 +144,15 @@ void SurfaceLoads::join(Plan& plan) {
     for (Load const& load : loads_) parts += load.parts.size() * sizeof(Part);
     return parts + normal_before_.size() * (2 * sizeof(Real) + sizeof(FaceTractions::Face));
   };
-  if (!config_.pressure.empty()) plan.effect("solid.pressure", bytes);
-  if (!config_.traction.empty()) plan.effect("solid.traction", bytes);
-  if (!config_.blast.empty()) plan.effect("solid.blast", bytes);
+  // Their common tasks and memory go to the last of them.
+  auto const nothing = [] { return std::size_t{0}; };
+  if (!config_.pressure.empty()) plan.effect("solid.pressure", nothing);
+  if (!config_.traction.empty()) plan.effect("solid.traction", nothing);
+  if (!config_.blast.empty()) plan.effect("solid.blast", nothing);
+  plan.effects().back().bytes = bytes;
   plan.at(Stage::drift, [this](Clock const& c) { begin_step(c); });
   plan.at(Stage::kick_again, [this](Clock const& c) { end_step(c); });
+  if (longest_step_ < 1e300) plan.limit("solid.loads", [this](Clock const&) { return longest_step_; });
   plan.account([this](Ledger& ledger) { account_.book(ledger); });
   Plan::Keep keep;
   keep.save = [this] { saved_time_ = time_; };

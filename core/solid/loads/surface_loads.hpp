@@ -53,6 +53,7 @@ class SurfaceLoads : public Effect {
   std::vector<Loaded> loaded_;
   std::vector<Real> normal_before_, extension_before_;  ///< t_n and S w_f of each face at the start of the step
   LoadAccount account_;
+  Real longest_step_ = 1e300;  ///< s
   Real time_ = 0, saved_time_ = 0;
 };
 

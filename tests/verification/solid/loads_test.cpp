@@ -1,0 +1,293 @@
+// Loads on the solid: statics, plane waves, absorbing faces, forces and sources at points, and their account.
+#include <gtest/gtest.h>
+
+#include "tests/support/evidence.hpp"
+#include "tests/support/solid_run.hpp"
+
+namespace brisance::solid {
+namespace {
+
+using testing::SolidRun;
+
+std::string number(Real x) { return std::to_string(x).substr(0, 5); }
+
+TractionConfig end_traction(Vec3 const& normal, Vec3 const& traction) {
+  TractionConfig load;
+  load.normal = normal;
+  load.traction = traction;
+  return load;
+}
+
+/// Lets a solid come to rest: all velocities go to zero whenever the kinetic energy passes a maximum.
+void relax(SolidRun& run, int steps) {
+  Real last = 0;
+  for (int n = 0; n < steps; ++n) {
+    run.simulation.pair();
+    Real const kinetic = run.measure().value(Measures::kinetic);
+    if (kinetic < last)
+      for (Motion& m : run.solid.motion()) m.v = m.spin = {};
+    last = kinetic < last ? 0 : kinetic;
+  }
+}
+
+TEST(Tractions, UniaxialPatchTestThroughAScene) {
+  Vec3 const h{1, 1.3, 0.8};
+  Real const stress = 1e-2;
+  for (std::array<Index, 3> cells : {std::array<Index, 3>{10, 1, 1}, {10, 3, 2}, {8, 4, 4}})
+    for (Real nu : {-0.9, -0.5, 0.0, 0.3, 0.45, 0.49}) {
+      SolidConfig config = testing::one_material(1, 1, nu);
+      config.body.push_back(testing::box({0, 0, 0}, {h.x * cells[0], h.y * cells[1], h.z * cells[2]}, cells));
+      config.traction = {end_traction({1, 0, 0}, {stress, 0, 0}), end_traction({-1, 0, 0}, {-stress, 0, 0})};
+      auto const comm = parallel::serial();
+      SolidRun run(config, 3, 1, *comm);
+      run.start();
+      for (Pose& p : run.solid.pose())
+        p.x = {(1 + stress) * p.x.x, (1 - nu * stress) * p.x.y, (1 - nu * stress) * p.x.z};
+      run.solid.compute_forces();
+      Real residual = 0;
+      for (Wrench const& w : run.solid.internal()) residual = max(residual, max(norm(w.force), norm(w.torque)));
+      std::string const variant = "through a scene, " + std::to_string(cells[0]) + "x" + std::to_string(cells[1]) +
+                                  "x" + std::to_string(cells[2]) + " nu " + number(nu);
+      EXPECT_TRUE(evidence::at_most("S4", "patch test", variant, "residual / (sigma S)",
+                                    residual / (stress * h.y * h.z), 1e-11));
+    }
+}
+
+TEST(Tractions, LoadedBarHasItsElongation) {
+  for (Real nu : {-0.9, 0.3, 0.49}) {
+    SolidConfig config = testing::one_material(1, 1, nu);
+    config.body.push_back(testing::box({0, 0, 0}, {10, 2, 2}, {10, 2, 2}));
+    Real const stress = 1e-4;
+    config.traction = {end_traction({1, 0, 0}, {stress, 0, 0}), end_traction({-1, 0, 0}, {-stress, 0, 0})};
+    auto const comm = parallel::serial();
+    SolidRun run(config, 3, 1e9, *comm);
+    run.start();
+    relax(run, nu > 0.4 ? 8000 : 3000);
+    Real low = 0, high = 0;
+    for (Index p = 0; p < run.solid.owned(); ++p) {
+      Real const x = run.mesh.particle(run.solid.id(p)).centre.x;
+      Real const u = run.solid.pose()[static_cast<std::size_t>(p)].x.x - x;
+      if (x < 1) low += u / 4;
+      if (x > 9) high += u / 4;
+    }
+    EXPECT_TRUE(evidence::near("S4", "loaded bar", "10x2x2, relaxed, nu " + number(nu), "elongation / (sigma L / E)",
+                               (high - low) / (9 * stress), 1, 1e-4));
+  }
+}
+
+/// A strip in the plane, loaded on its low side in x by a traction; the velocity on its middle line.
+struct Strip {
+  SolidConfig config;
+  std::unique_ptr<parallel::Comm> comm = parallel::serial();
+  std::unique_ptr<SolidRun> run;
+  Index length, width;
+  Strip(Real nu, Index length_, Index width_, Vec3 const& traction, PulseConfig const& pulse, bool absorbing)
+      : config(testing::one_material(1, 1, nu)), length(length_), width(width_) {
+    config.body.push_back(testing::box({0, 0, 0}, {Real(length), Real(width), 1}, {length, width, 1}));
+    config.traction = {end_traction({-1, 0, 0}, traction)};
+    config.traction[0].pulse = pulse;
+    if (absorbing) {
+      config.absorbing.emplace_back();
+      config.absorbing[0].normal = Vec3{1, 0, 0};
+    }
+  }
+  void to(Real time, int dimension) {
+    if (!run) {
+      run = std::make_unique<SolidRun>(config, dimension, 1e9, *comm);
+      run->start();
+    }
+    while (run->simulation.clock().time < time) run->simulation.pair();
+  }
+  /// Largest speed on the middle line, at `x` from the loaded side; the time steps on until `until`.
+  Vec3 velocity(Real x) const {
+    Vec3 best{};
+    Real nearest = 1e300;
+    for (Index p = 0; p < run->solid.owned(); ++p) {
+      Vec3 const c = run->mesh.particle(run->solid.id(p)).centre;
+      Real const away = std::abs(c.x - x) + std::abs(c.y - 0.5 * width);
+      if (away < nearest) nearest = away, best = run->solid.motion()[static_cast<std::size_t>(p)].v;
+    }
+    return best;
+  }
+  Real largest(Real until, int dimension, Real from) {
+    Real most = 0;
+    while (run->simulation.clock().time < until) {
+      run->simulation.pair();
+      for (Index p = 0; p < run->solid.owned(); ++p) {
+        Vec3 const c = run->mesh.particle(run->solid.id(p)).centre;
+        if (dimension > 1 && std::abs(c.y - 0.5 * width) > 1) continue;
+        if (c.x >= from) most = max(most, norm(run->solid.motion()[static_cast<std::size_t>(p)].v));
+      }
+    }
+    return most;
+  }
+};
+
+TEST(PlaneWaves, TractionStepGivesTheExactParticleVelocity) {
+  Real const stress = 1e-5;
+  for (Real nu : {0.0, 0.3, 0.45}) {
+    Real const g = 0.5 / (1 + nu), cp = std::sqrt(2 * g * (1 - nu) / (1 - 2 * nu)), cs = std::sqrt(g);
+    PulseConfig const smooth{"smooth", 0, 20 / cp, {}};
+    Strip p(nu, 100, 1, {stress, 0, 0}, smooth, false);
+    p.to(80 / cp, 1);
+    EXPECT_TRUE(evidence::near("S6", "P wave of a traction", "smooth step, nu " + number(nu), "v rho c_p / t",
+                               p.velocity(20).x * cp / stress, 1, 1e-3));
+    EXPECT_LE(p.run->simulation.ledger().conservation().momentum.x, 1e-13);
+    PulseConfig const slow{"smooth", 0, 10 / cs, {}};
+    Strip s(nu, 40, 160, {0, stress, 0}, slow, false);
+    s.to(34 / cs, 2);
+    EXPECT_TRUE(evidence::near("S7", "S wave of a traction", "smooth step, nu " + number(nu), "v rho c_s / t",
+                               s.velocity(12).y * cs / stress, 1, 2e-3));
+  }
+}
+
+TEST(AbsorbingFaces, LetPlaneWavesOutAndBookWhatTheyTake) {
+  Real const stress = 1e-5;
+  for (Real nu : {0.0, 0.3, 0.45, 0.49}) {
+    Real const g = 0.5 / (1 + nu), cp = std::sqrt(2 * g * (1 - nu) / (1 - 2 * nu)), cs = std::sqrt(g);
+    Strip p(nu, 60, 1, {stress, 0, 0}, {"half_sine", 0, 20 / cp, {}}, true);
+    p.to(20 / cp, 1);
+    p.largest(85 / cp, 1, 0);  // until the end of the pulse has left
+    Real const left = p.largest(130 / cp, 1, 0) * cp / stress;
+    EXPECT_TRUE(evidence::at_most("S6", "absorbing face", "P, 20 cells long, nu " + number(nu), "reflected / incident",
+                                  left, 0.5));
+    auto const& ledger = p.run->simulation.ledger();
+    EXPECT_TRUE(evidence::near("S6", "absorbing face", "P, nu " + number(nu), "dissipated / work of the load",
+                               ledger.received(Entry::dissipated) / ledger.received(Entry::in_energy), 1, 0.5));
+    EXPECT_LE(ledger.conservation().momentum.x, 1e-13);
+    std::printf("nu %g reflected %.4g  energy defect %.3g final %.3g\n", nu, left, ledger.conservation().energy,
+                ledger.conservation().energy_final);
+    if (nu == 0.45) continue;
+    Strip s(nu, 24, 160, {0, stress, 0}, {"half_sine", 0, 20 / cs, {}}, true);
+    s.to(50 / cs, 2);
+    Real const stays = s.largest(56 / cs, 2, 0) * cs / stress;
+    std::printf("S nu %g reflected %.4g\n", nu, stays);
+  }
+}
+
+TEST(PointForces, GiveTheirImpulse) {
+  SolidConfig config = testing::one_material(2, 1, 0.3);
+  config.body.push_back(testing::box({0, 0, 0}, {6, 2, 2}, {6, 2, 2}));
+  config.point_force.emplace_back();
+  PointForceConfig& push = config.point_force[0];
+  push.position = {6, 2, 1};
+  push.force = {1e-3, -2e-3, 5e-4};
+  push.history = {{0, 0, {}}, {40, 1, {}}};  // linear all the time: the kicks integrate it exactly
+  auto const comm = parallel::serial();
+  SolidRun run(config, 3, 30, *comm);
+  run.start();
+  run.to_the_end();
+  Vec3 const impulse = (30.0 * 30.0 / 80.0) * push.force;
+  Vec3 const momentum = run.measure().vector(Measures::momentum);
+  EXPECT_LE(norm(momentum - impulse) / norm(impulse), 1e-13);
+  // Its torque about the origin turns the body: the spin follows from the arm, up to the small motion of the point.
+  auto const& c = run.simulation.ledger().conservation();
+  EXPECT_LE(norm(c.momentum), 1e-14);
+  EXPECT_LE(c.energy, 3e-3);
+}
+
+TEST(MomentTensors, AreDipolesWithoutForce) {
+  SolidConfig config = testing::one_material(1, 1, 0.3);
+  config.body.push_back(testing::box({0, 0, 0}, {5, 5, 5}, {5, 5, 5}));
+  config.moment_tensor.emplace_back();
+  config.moment_tensor[0].position = {2.5, 2.5, 2.5};
+  config.moment_tensor[0].moment = {1, 2, 3, 0.5, -0.25, 0.75};
+  auto const comm = parallel::serial();
+  SolidRun run(config, 3, 1, *comm);
+  run.start();
+  Vec3 force{}, torque{};
+  Mat3 dipole{};
+  for (Index p = 0; p < run.solid.owned(); ++p) {
+    Wrench const& w = run.solid.internal()[static_cast<std::size_t>(p)];
+    Vec3 const x = run.solid.pose()[static_cast<std::size_t>(p)].x;
+    force += w.force;
+    torque += w.torque + cross(x, w.force);
+    dipole = dipole + outer(w.force, x);
+  }
+  EXPECT_LE(norm(force), 1e-14);
+  EXPECT_LE(norm(torque), 1e-14);
+  Mat3 const wanted{{Vec3{1, 0.5, -0.25}, Vec3{0.5, 2, 0.75}, Vec3{-0.25, 0.75, 3}}};
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(dipole[r][c], wanted[r][c], 1e-13);
+  // An explosion pushes its neighbours away.
+  config.moment_tensor[0].moment = {1, 1, 1, 0, 0, 0};
+  SolidRun explosion(config, 3, 3, *comm);
+  explosion.start();
+  explosion.to_the_end();
+  for (Index p = 0; p < explosion.solid.owned(); ++p) {
+    Vec3 const arm = explosion.mesh.particle(explosion.solid.id(p)).centre - Vec3{2.5, 2.5, 2.5};
+    if (std::abs(norm(arm) - 1) > 1e-9) continue;
+    Vec3 const moved = explosion.solid.pose()[static_cast<std::size_t>(p)].x - arm - Vec3{2.5, 2.5, 2.5};
+    EXPECT_GT(dot(moved, arm), 0.01);
+  }
+}
+
+/// A spinning brick under all kinds of loads at once.
+SolidConfig tossed_brick(Real cfl) {
+  SolidConfig config = testing::one_material(1, 1, 0.3);
+  config.body.push_back(testing::box({0, 0, 0}, {4, 3, 3}, {4, 3, 3}));
+  config.body[0].spin = {0.02, 0.03, -0.05};
+  config.motion.cfl = cfl;
+  config.pressure.emplace_back();
+  config.pressure[0].normal = Vec3{0, 0, 1};
+  config.pressure[0].pressure = 0.01;
+  config.pressure[0].pulse = PulseConfig{"half_sine", 1, 30, {}};
+  config.traction = {end_traction({1, 0, 0}, {0.004, 0.01, -0.003})};
+  config.traction[0].pulse = PulseConfig{"smooth", 0, 25, {}};
+  config.point_force.emplace_back();
+  config.point_force[0].position = {2, 3, 1};
+  config.point_force[0].force = {0, -0.02, 0};
+  config.point_force[0].follow = true;
+  config.point_force[0].pulse = PulseConfig{"triangle", 5, 20, {}};
+  config.moment_tensor.emplace_back();
+  config.moment_tensor[0].position = {1.5, 1.5, 1.5};
+  config.moment_tensor[0].moment = {0.02, 0.01, -0.01, 0.01, 0, 0.01};
+  config.moment_tensor[0].pulse = PulseConfig{"half_sine", 0, 40, {}};
+  return config;
+}
+
+TEST(Loads, KeepTheAccountOfEnergy) {
+  Real defect[2];
+  for (int halved = 0; halved < 2; ++halved) {
+    auto const comm = parallel::serial();
+    SolidRun run(tossed_brick(halved ? 0.4 : 0.8), 3, 60, *comm);
+    run.start();
+    run.to_the_end();
+    auto const& c = run.simulation.ledger().conservation();
+    EXPECT_LE(norm(c.momentum), 1e-13);
+    defect[halved] = c.energy;
+    std::printf("energy defect %.4g final %.4g, total %.4g\n", c.energy, c.energy_final, run.energy());
+  }
+  EXPECT_LE(defect[0], 1e-2);
+  EXPECT_GE(defect[0] / defect[1], 3.5);
+}
+
+TEST(Pressure, OpensARing) {
+  SolidConfig config = testing::one_material(1, 1, 0);
+  BodyConfig tube;
+  tube.material = "m", tube.shape = "tube", tube.tessellation = "polar";
+  tube.centre = Vec3{0, 0, 0};
+  tube.inner_radius = 9.5, tube.outer_radius = 10.5;
+  tube.cells = {1, 60, 1};
+  config.body.push_back(tube);
+  config.pressure.emplace_back();
+  config.pressure[0].facing = Vec3{0, 0, 0};
+  config.pressure[0].pressure = 1e-5;
+  auto const comm = parallel::serial();
+  SolidRun run(config, 2, 1e9, *comm);
+  run.start();
+  relax(run, 3000);
+  Real moved = 0;
+  for (Index p = 0; p < run.solid.owned(); ++p) {
+    Vec3 const x = run.mesh.particle(run.solid.id(p)).centre;
+    moved += dot(run.solid.pose()[static_cast<std::size_t>(p)].x - x, normalized({x.x, x.y, 0})) / 60;
+  }
+  // Lame, nu = 0, at r = 10: u = p a^2 / (E (b^2 - a^2)) (r + b^2 / r).
+  Real const a = 9.5, b = 10.5, r = 10, exact = 1e-5 * a * a / (b * b - a * a) * (r + b * b / r);
+  EXPECT_TRUE(evidence::near("S14", "ring under inner pressure", "60 wedges, one layer", "radial displacement / exact",
+                             moved / exact, 1, 5e-2));
+  std::printf("ring %.6g\n", moved / exact);
+}
+
+}  // namespace
+}  // namespace brisance::solid
