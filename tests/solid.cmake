@@ -11,4 +11,5 @@ brisance_test(solid_parallel SOURCES parallel/solid_test.cpp LINKS brisance::sol
 brisance_test(solid_restart SOURCES restart/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS restart)
 brisance_test(solid_loads_unit SOURCES unit/core/solid/loads/blast_test.cpp unit/core/solid/loads/load_test.cpp
   LINKS brisance::solid LABELS unit)
-brisance_test(solid_loads SOURCES verification/solid/loads_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_loads SOURCES verification/solid/loads_test.cpp verification/solid/lamb_test.cpp
+  LINKS brisance::solid LABELS verification)

@@ -88,6 +88,9 @@ class Solid {
   FaceTractions& face_tractions() { return face_tractions_; }
   void tractions_changed() { face_tractions_.open(face_opening_); }
 
+  /// Angular velocity J^-1 spin at the present turn, fixed frame, rad/s.
+  Vec3 omega_of(Index particle, Vec3 const& spin) const;
+
   // Links of this rank, in global order: those of owned particles and of the first layer of ghosts.
   LinkStore const& link_store() const { return links_; }
   std::size_t mesh_link(std::size_t link) const { return mesh_link_[link]; }  ///< its place in Mesh::links

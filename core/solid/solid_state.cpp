@@ -52,6 +52,11 @@ std::size_t Solid::bytes() const {
 
 std::size_t Solid::link_bytes() const { return links_.bytes(); }
 
+Vec3 Solid::omega_of(Index particle, Vec3 const& spin) const {
+  Quaternion const& q = pose_[at(particle)].q;
+  return rotate(q, symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].inverse) * rotate(conjugate(q), spin));
+}
+
 void Solid::measure(Measures& to) const {
   for (Index l = 0; l < owned_; ++l) {
     Real const mass = mesh_.particle(id(l)).mass;

@@ -63,7 +63,7 @@ PointLoads::PointLoads(SolidConfig const& config, Solid& solid) : config_(config
 void PointLoads::add_part(GlobalId particle, Index frame, Vec3 const& force, Vec3 const& arm) {
   Index const l = solid_.local(particle);
   if (l < 0 || l >= solid_.owned()) return;
-  parts_.push_back({histories_.size() - 1, l, frame, force, arm, {}, {}});
+  parts_.push_back({histories_.size() - 1, l, frame, force, arm, {}, {}, {}});
 }
 
 void PointLoads::add_force(PointForceConfig const& config, std::string const& name) {
@@ -109,15 +109,16 @@ void PointLoads::measure_wrenches(Real time) {
     Vec3 force = histories_[part.history].at(time) * part.force;
     if (part.frame >= 0) force = rotate(solid_.pose()[static_cast<std::size_t>(part.frame)].q, force);
     Vec3 const arm = rotate(solid_.pose()[static_cast<std::size_t>(part.particle)].q, part.arm);
-    part.after = {force, cross(arm, force)};
+    part.second.force = force;
+    part.second.torque = cross(arm, force);
   }
 }
 
 void PointLoads::add_to_forces() const {
   for (Part const& part : parts_) {
     Wrench& w = solid_.internal()[static_cast<std::size_t>(part.particle)];
-    w.force += part.after.force;
-    w.torque += part.after.torque;
+    w.force += part.second.force;
+    w.torque += part.second.torque;
   }
 }
 
@@ -126,16 +127,24 @@ void PointLoads::join(Plan& plan) {
   if (!config_.point_force.empty()) plan.effect("solid.point_force", nothing);
   if (!config_.moment_tensor.empty()) plan.effect("solid.moment_tensor", nothing);
   plan.effects().back().bytes = [this] { return parts_.size() * sizeof(Part); };
-  plan.at(Stage::drift, [this](Clock const&) {
-    for (Part& part : parts_) part.before = part.after;
+  plan.at(Stage::source, [this](Clock const&) {
+    for (Part& part : parts_) {
+      part.first = part.second;
+      part.velocity.begin(solid_, part.particle);
+    }
+  });
+  plan.at(Stage::kick, [this](Clock const&) {
+    for (Part& part : parts_) part.velocity.take(solid_, part.particle, part.first);
   });
   plan.at(Stage::forces, [this](Clock const& c) {
     measure_wrenches(c.time + c.dt);
     add_to_forces();
   });
   plan.at(Stage::kick_again, [this](Clock const& c) {
-    for (Part const& part : parts_)
-      account_.add(c.dt, part.before, part.after, solid_.half_velocity()[static_cast<std::size_t>(part.particle)]);
+    for (Part& part : parts_) {
+      part.velocity.take(solid_, part.particle, part.second);
+      account_.add(c.dt, part.first, part.second);
+    }
   });
   if (longest_step_ < 1e300) plan.limit("solid.loads", [this](Clock const&) { return longest_step_; });
   plan.account([this](Ledger& ledger) { account_.book(ledger); });

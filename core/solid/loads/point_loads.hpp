@@ -25,7 +25,8 @@ class PointLoads : public Effect {
     Index particle;
     Index frame;      ///< particle whose rotation turns the force; -1: fixed in space
     Vec3 force, arm;  ///< at factor 1, N; from the mass centre in the body frame, m
-    StepWrench before, after;
+    KickLoad first, second;
+    KickVelocity velocity;
   };
 
   void add_force(PointForceConfig const& config, std::string const& name);

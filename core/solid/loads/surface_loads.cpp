@@ -70,8 +70,8 @@ void SurfaceLoads::find_faces() {
   auto const faces = solid_.face_tractions().faces();
   for (std::size_t k = 0; k < faces.size(); ++k) {
     if (loaded_.empty() || loaded_.back().particle != faces[k].particle)
-      loaded_.push_back({faces[k].particle, k, k, {}, {}});
-    loaded_.back().last = k + 1;
+      loaded_.push_back({faces[k].particle, k, k, {}, {}, {}});
+    loaded_.back().last_face = k + 1;
   }
   std::erase_if(loaded_, [&](Loaded const& l) { return l.particle >= solid_.owned(); });
   normal_before_.assign(faces.size(), 0);
@@ -101,22 +101,22 @@ void SurfaceLoads::measure_wrenches() {
   auto const faces = solid_.face_tractions().faces();
   for (Loaded& l : loaded_) {
     Vec3 force{}, torque{};
-    for (std::size_t k = l.first; k < l.last; ++k) {
+    for (std::size_t k = l.first_face; k < l.last_face; ++k) {
       Vec3 const f = faces[k].area * faces[k].traction;
       force += f;
       torque += cross(faces[k].arm, f);
     }
     Quaternion const& q = solid_.pose()[static_cast<std::size_t>(l.particle)].q;
-    l.after = {rotate(q, force), rotate(q, torque)};
+    l.second.force = rotate(q, force);
+    l.second.torque = rotate(q, torque);
   }
 }
 
 void SurfaceLoads::begin_step(Clock const& clock) {
   auto const faces = solid_.face_tractions().faces();
   for (Loaded& l : loaded_) {
-    l.before = l.after;
     Real const pressure = solid_.pressure()[static_cast<std::size_t>(l.particle)];
-    for (std::size_t k = l.first; k < l.last; ++k) {
+    for (std::size_t k = l.first_face; k < l.last_face; ++k) {
       normal_before_[k] = faces[k].normal_traction();
       extension_before_[k] = FaceTractions::extension(faces[k], pressure);
     }
@@ -127,11 +127,12 @@ void SurfaceLoads::begin_step(Clock const& clock) {
 void SurfaceLoads::end_step(Clock const& clock) {
   measure_wrenches();
   auto const faces = solid_.face_tractions().faces();
-  for (Loaded const& l : loaded_) {
+  for (Loaded& l : loaded_) {
     auto const p = static_cast<std::size_t>(l.particle);
-    account_.add(clock.dt, l.before, l.after, solid_.half_velocity()[p]);
+    l.velocity.take(solid_, l.particle, l.second);
+    account_.add(clock.dt, l.first, l.second);
     Real at_rest = 0;  // a changing t_n changes the energy of a face at fixed positions
-    for (std::size_t k = l.first; k < l.last; ++k)
+    for (std::size_t k = l.first_face; k < l.last_face; ++k)
       at_rest -= 0.5 * (extension_before_[k] + FaceTractions::extension(faces[k], solid_.pressure()[p])) *
                  (faces[k].normal_traction() - normal_before_[k]);
     account_.add_work(at_rest);
@@ -150,6 +151,15 @@ void SurfaceLoads::join(Plan& plan) {
   if (!config_.traction.empty()) plan.effect("solid.traction", nothing);
   if (!config_.blast.empty()) plan.effect("solid.blast", nothing);
   plan.effects().back().bytes = bytes;
+  plan.at(Stage::source, [this](Clock const&) {
+    for (Loaded& l : loaded_) {
+      l.first = l.second;
+      l.velocity.begin(solid_, l.particle);
+    }
+  });
+  plan.at(Stage::kick, [this](Clock const&) {
+    for (Loaded& l : loaded_) l.velocity.take(solid_, l.particle, l.first);
+  });
   plan.at(Stage::drift, [this](Clock const& c) { begin_step(c); });
   plan.at(Stage::kick_again, [this](Clock const& c) { end_step(c); });
   if (longest_step_ < 1e300) plan.limit("solid.loads", [this](Clock const&) { return longest_step_; });

@@ -33,11 +33,12 @@ class SurfaceLoads : public Effect {
     std::size_t face;
     BlastWave wave;
   };
-  /// A particle here and its faces: [first, last) of Solid::face_tractions.
+  /// A particle here and its faces: [first_face, last_face) of Solid::face_tractions.
   struct Loaded {
     Index particle;
-    std::size_t first, last;
-    StepWrench before, after;
+    std::size_t first_face, last_face;
+    KickLoad first, second;
+    KickVelocity velocity;
   };
 
   void find_faces();

@@ -135,9 +135,9 @@ TEST(PlaneWaves, TractionStepGivesTheExactParticleVelocity) {
     EXPECT_LE(p.run->simulation.ledger().conservation().momentum.x, 1e-13);
     PulseConfig const slow{"smooth", 0, 10 / cs, {}};
     Strip s(nu, 40, 160, {0, stress, 0}, slow, false);
-    s.to(34 / cs, 2);
+    s.to(22 / cs, 2);
     EXPECT_TRUE(evidence::near("S7", "S wave of a traction", "smooth step, nu " + number(nu), "v rho c_s / t",
-                               s.velocity(12).y * cs / stress, 1, 2e-3));
+                               s.velocity(6).y * cs / stress, 1, 2e-3));
   }
 }
 
@@ -157,8 +157,8 @@ TEST(AbsorbingFaces, LetPlaneWavesOutAndBookWhatTheyTake) {
     EXPECT_LE(ledger.conservation().momentum.x, 1e-13);
     std::printf("nu %g reflected %.4g  energy defect %.3g final %.3g\n", nu, left, ledger.conservation().energy,
                 ledger.conservation().energy_final);
-    if (nu == 0.45) continue;
-    Strip s(nu, 24, 160, {0, stress, 0}, {"half_sine", 0, 20 / cs, {}}, true);
+    if (nu > 0.4) continue;
+    Strip s(nu, 24, 240, {0, stress, 0}, {"half_sine", 0, 20 / cs, {}}, true);
     s.to(50 / cs, 2);
     Real const stays = s.largest(56 / cs, 2, 0) * cs / stress;
     std::printf("S nu %g reflected %.4g\n", nu, stays);
@@ -183,7 +183,7 @@ TEST(PointForces, GiveTheirImpulse) {
   // Its torque about the origin turns the body: the spin follows from the arm, up to the small motion of the point.
   auto const& c = run.simulation.ledger().conservation();
   EXPECT_LE(norm(c.momentum), 1e-14);
-  EXPECT_LE(c.energy, 3e-3);
+  EXPECT_LE(std::abs(c.energy_final), 1e-3);
 }
 
 TEST(MomentTensors, AreDipolesWithoutForce) {
