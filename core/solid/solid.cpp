@@ -160,10 +160,20 @@ void Solid::store_links() {
 void Solid::load_faces(std::span<FaceLoad const> loads) {
   face_tractions_.clear();
   std::fill(face_opening_.begin(), face_opening_.end(), 0.0);
+  add_loaded_faces(loads);
+}
+
+std::size_t Solid::add_loaded_faces(std::span<FaceLoad const> loads) {
+  std::size_t const first = face_tractions_.faces().size();
   for (FaceLoad const& load : loads)
     if (Index const l = local(load.particle); l >= 0)
       face_tractions_.add(mesh_, load.particle, load.face, l, load.traction);
   tractions_changed();
+  return first;
+}
+
+Real Solid::gap_volume(std::size_t link) const {
+  return opened_volume(links_.rest(link), ends_of(pose_[at(links_.end_i(link))], pose_[at(links_.end_j(link))]));
 }
 
 void Solid::start_exchange() { halo_.start(comm_, pose_, half_); }

@@ -41,6 +41,18 @@ Vector6 generalized_normal(End const& e) {
   return g;
 }
 
+/// B = [1  -[arm]x]: displacement of a point by (u, theta).
+Eigen::Matrix<double, 3, 6> moved_by(Vec3 const& arm) {
+  Eigen::Matrix<double, 3, 6> b = Eigen::Matrix<double, 3, 6>::Zero();
+  b.leftCols<3>().setIdentity();
+  for (int c = 0; c < 3; ++c) {
+    Vec3 axis{};
+    axis[c] = 1;
+    b.col(3 + c) = eigen(cross(axis, arm));
+  }
+  return b;
+}
+
 /// How the strain of a particle depends on the others and on itself: A_J / V~_J and b_J.
 struct StrainBound {
   Real ratio = 0;  ///< sum of w^2 S D over the effective volume, 1 (dimensionless)
@@ -88,13 +100,7 @@ std::vector<double> Solid::link_limits() const {
       Link const& link = mesh_.links[index];
       End const e = end_of(mesh_, link, p);
       bool const wall = e.other == Link::wall;
-      Eigen::Matrix<double, 3, 6> b = Eigen::Matrix<double, 3, 6>::Zero();
-      b.leftCols<3>().setIdentity();
-      for (int c = 0; c < 3; ++c) {
-        Vec3 axis{};
-        axis[c] = 1;
-        b.col(3 + c) = eigen(cross(axis, e.arm));
-      }
+      Eigen::Matrix<double, 3, 6> const b = moved_by(e.arm);
       // |a - b|^2 <= 2 |a|^2 + 2 |b|^2 for two moving ends; a wall does not move.
       Real const shared = wall ? 1 : 2;
       k += shared * link.stiffness * b.transpose() * b;
@@ -103,6 +109,12 @@ std::vector<double> Solid::link_limits() const {
       StrainBound const& of = bound[at(local(e.other))];
       Vector6 const g = generalized_normal(e);
       k += lame * (of.cancels ? 1 : 2) * of.ratio * (e.face->area / link.rest_length) * g * g.transpose();
+    }
+    for (auto [held, last] = held_faces_.equal_range(l); held != last; ++held) {
+      FaceGeometry const& face = mesh_.face(p, held->second);
+      Eigen::Matrix<double, 3, 6> const b = moved_by(face.centroid);
+      k += 2 * mesh_.material(p).shear() * face.area / dot(face.centroid - mesh_.shape(p).pole, face.normal) *
+           b.transpose() * b;
     }
     StrainBound const& mine = bound[at(l)];
     if (!mine.cancels) k += 2 * lame / mesh_.particle(p).effective_volume * mine.own * mine.own.transpose();

@@ -3,41 +3,50 @@
 #include <vector>
 
 #include "core/model/plan.hpp"
-#include "core/solid/solid.hpp"
+#include "core/solid/loads/face_account.hpp"
+#include "core/solid/loads/face_selection.hpp"
 
 namespace brisance::solid {
 
-/// solid.absorbing: dashpots t = -rho c_p (v.n) n - rho c_s v_t at the centroids of faces (Lysmer).
-/// Source: theory/solid.md section 7.
-/// They act on the velocities between the last kick of a step and the first of the next, by the rule of the mean
-/// velocity: (M + dt/2 C) v+ = (M - dt/2 C) v-. This takes exactly dt v C v, of the mean velocity v, out of the kinetic
-/// energy, at any step, and leaves Verlet's own account of energy alone.
+/// solid.absorbing: dashpots t = -rho c_p (u'.n) n - rho c_s u'_t (Lysmer) on the surface points of faces, which follow
+/// their particles through the springs 2 G / d of half a link: u' = v + w', t = 2 G w / d + lambda eps n.
+/// Source: theory/solid.md section 7. On the rigid particle itself, without the springs, the dashpot stands half a cell
+/// before the surface and reflects k h / 4 of a wave of number k.
+/// Time: w and t at t^{n+1} by the rule of the mean over the step, t^n + t^{n+1} = -2 rho c (v + (w^{n+1} - w^n) / dt):
+/// one small system per particle, as its faces share eps. It dissipates dt rho c |u'|^2 S exactly, at any step.
 class AbsorbingFaces : public Effect {
  public:
-  /// Errors: scene errors naming the selection.
+  /// Errors: scene errors naming the selection; a face that bears another load.
   AbsorbingFaces(SolidConfig const& config, Solid& solid);
   void join(Plan& plan) override;
+  void start() override;
 
  private:
-  using Matrix = std::array<std::array<Real, 6>, 6>;
-  using Vector = std::array<Real, 6>;
-  /// An owned free particle with absorbing faces; body frame.
-  struct Dashpot {
-    Index particle;
-    Matrix damping;  ///< C of (v, Omega)
-    Matrix mass;     ///< M = diag(m, J)
-    Mat3 inverse;    ///< J^-1
-    Matrix step;     ///< (M + dt/2 C)^-1 (M - dt/2 C)
+  struct State {
+    Vec3 traction{}, extension{};  ///< t, Pa, and w, m; body frame
   };
-  void add_face(Dashpot& to, GlobalId particle, FaceGeometry const& face) const;
-  void prepare(Real dt);
-  void damp(Real dt);
+  /// The faces of a particle whose links are all here: owned or in the first layer of ghosts.
+  struct Group {
+    Index particle;
+    std::size_t first, last;                          ///< places in states_
+    Real resist_normal, resist_shear;                 ///< rho c_p, rho c_s
+    std::vector<std::pair<std::size_t, Real>> links;  ///< links of this rank and the particle's weights in them
+  };
+
+  void update(Real dt);
+  Real update(Group const& group, Real dt);
+  void set_tractions();
 
   Solid& solid_;
-  std::vector<Dashpot> dashpots_;
-  Real prepared_for_ = 0;  ///< s
-  std::array<parallel::ExactSum, 3> impulse_{};
-  parallel::ExactSum dissipated_, push_;
+  std::vector<FaceRef> here_;     ///< of each local face
+  std::vector<GlobalId> number_;  ///< of each local face among all absorbing ones
+  GlobalId total_ = 0;
+  std::size_t offset_ = 0;  ///< of the local faces in Solid::face_tractions
+  std::vector<State> states_, saved_;
+  std::vector<Group> groups_;
+  FaceAccount account_of_faces_;
+  LoadAccount account_;
+  parallel::ExactSum dissipated_;
 };
 
 }  // namespace brisance::solid

@@ -28,6 +28,7 @@ class LoadAccount {
   }
   /// Work that changes the energy at fixed positions, J.
   void add_work(Real work) { work_.add(work); }
+  void add_work(parallel::ExactSum const& work) { work_.add(work); }
 
   /// Adds all to the ledger and starts anew.
   void book(Ledger& ledger) {

@@ -67,21 +67,14 @@ void SurfaceLoads::find_faces() {
                                                                          : config_.traction[t].traction});
       }
     }
-  auto const faces = solid_.face_tractions().faces();
-  for (std::size_t k = 0; k < faces.size(); ++k) {
-    if (loaded_.empty() || loaded_.back().particle != faces[k].particle)
-      loaded_.push_back({faces[k].particle, k, k, {}, {}, {}});
-    loaded_.back().last_face = k + 1;
-  }
-  std::erase_if(loaded_, [&](Loaded const& l) { return l.particle >= solid_.owned(); });
-  normal_before_.assign(faces.size(), 0);
-  extension_before_.assign(faces.size(), 0);
+  count_ = here.size();
+  account_of_faces_.follow(solid_, 0, count_);
 }
 
 void SurfaceLoads::set_tractions(Real time) {
   time_ = time;
   auto const faces = solid_.face_tractions().faces();
-  for (FaceTractions::Face& f : faces) f.traction = {};
+  for (std::size_t k = 0; k < count_; ++k) faces[k].traction = {};
   for (Load const& load : loads_) {
     Real const factor = load.history.at(time);
     for (Part const& part : load.parts) {
@@ -97,53 +90,11 @@ void SurfaceLoads::set_tractions(Real time) {
   solid_.tractions_changed();
 }
 
-void SurfaceLoads::measure_wrenches() {
-  auto const faces = solid_.face_tractions().faces();
-  for (Loaded& l : loaded_) {
-    Vec3 force{}, torque{};
-    for (std::size_t k = l.first_face; k < l.last_face; ++k) {
-      Vec3 const f = faces[k].area * faces[k].traction;
-      force += f;
-      torque += cross(faces[k].arm, f);
-    }
-    Quaternion const& q = solid_.pose()[static_cast<std::size_t>(l.particle)].q;
-    l.second.force = rotate(q, force);
-    l.second.torque = rotate(q, torque);
-  }
-}
-
-void SurfaceLoads::begin_step(Clock const& clock) {
-  auto const faces = solid_.face_tractions().faces();
-  for (Loaded& l : loaded_) {
-    Real const pressure = solid_.pressure()[static_cast<std::size_t>(l.particle)];
-    for (std::size_t k = l.first_face; k < l.last_face; ++k) {
-      normal_before_[k] = faces[k].normal_traction();
-      extension_before_[k] = FaceTractions::extension(faces[k], pressure);
-    }
-  }
-  set_tractions(clock.time + clock.dt);
-}
-
-void SurfaceLoads::end_step(Clock const& clock) {
-  measure_wrenches();
-  auto const faces = solid_.face_tractions().faces();
-  for (Loaded& l : loaded_) {
-    auto const p = static_cast<std::size_t>(l.particle);
-    l.velocity.take(solid_, l.particle, l.second);
-    account_.add(clock.dt, l.first, l.second);
-    Real at_rest = 0;  // a changing t_n changes the energy of a face at fixed positions
-    for (std::size_t k = l.first_face; k < l.last_face; ++k)
-      at_rest -= 0.5 * (extension_before_[k] + FaceTractions::extension(faces[k], solid_.pressure()[p])) *
-                 (faces[k].normal_traction() - normal_before_[k]);
-    account_.add_work(at_rest);
-  }
-}
-
 void SurfaceLoads::join(Plan& plan) {
   auto const bytes = [this] {
-    std::size_t parts = blasts_.size() * sizeof(BlastPart) + loaded_.size() * sizeof(Loaded);
+    std::size_t parts = blasts_.size() * sizeof(BlastPart) + account_of_faces_.bytes();
     for (Load const& load : loads_) parts += load.parts.size() * sizeof(Part);
-    return parts + normal_before_.size() * (2 * sizeof(Real) + sizeof(FaceTractions::Face));
+    return parts;
   };
   // Their common tasks and memory go to the last of them.
   auto const nothing = [] { return std::size_t{0}; };
@@ -151,24 +102,20 @@ void SurfaceLoads::join(Plan& plan) {
   if (!config_.traction.empty()) plan.effect("solid.traction", nothing);
   if (!config_.blast.empty()) plan.effect("solid.blast", nothing);
   plan.effects().back().bytes = bytes;
-  plan.at(Stage::source, [this](Clock const&) {
-    for (Loaded& l : loaded_) {
-      l.first = l.second;
-      l.velocity.begin(solid_, l.particle);
-    }
+  plan.at(Stage::source, [this](Clock const&) { account_of_faces_.before_first_kick(); });
+  plan.at(Stage::kick, [this](Clock const&) { account_of_faces_.after_first_kick(); });
+  plan.at(Stage::drift, [this](Clock const& c) {
+    account_of_faces_.before_change();
+    set_tractions(c.time + c.dt);
   });
-  plan.at(Stage::kick, [this](Clock const&) {
-    for (Loaded& l : loaded_) l.velocity.take(solid_, l.particle, l.first);
-  });
-  plan.at(Stage::drift, [this](Clock const& c) { begin_step(c); });
-  plan.at(Stage::kick_again, [this](Clock const& c) { end_step(c); });
+  plan.at(Stage::kick_again, [this](Clock const& c) { account_of_faces_.after_second_kick(c.dt, account_); });
   if (longest_step_ < 1e300) plan.limit("solid.loads", [this](Clock const&) { return longest_step_; });
   plan.account([this](Ledger& ledger) { account_.book(ledger); });
   Plan::Keep keep;
   keep.save = [this] { saved_time_ = time_; };
   keep.restore = [this] {
     set_tractions(saved_time_);
-    measure_wrenches();
+    account_of_faces_.start();
     account_.clear();
   };
   keep.write = [](parallel::ArchiveWriter&) {};
@@ -179,7 +126,7 @@ void SurfaceLoads::join(Plan& plan) {
 
 void SurfaceLoads::start() {
   solid_.compute_strains();
-  measure_wrenches();
+  account_of_faces_.start();
 }
 
 }  // namespace brisance::solid

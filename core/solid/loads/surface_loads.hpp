@@ -2,8 +2,8 @@
 #pragma once
 #include "core/model/plan.hpp"
 #include "core/solid/loads/blast_wave.hpp"
+#include "core/solid/loads/face_account.hpp"
 #include "core/solid/loads/face_selection.hpp"
-#include "core/solid/loads/load_account.hpp"
 #include "core/solid/solid.hpp"
 
 namespace brisance::solid {
@@ -33,26 +33,15 @@ class SurfaceLoads : public Effect {
     std::size_t face;
     BlastWave wave;
   };
-  /// A particle here and its faces: [first_face, last_face) of Solid::face_tractions.
-  struct Loaded {
-    Index particle;
-    std::size_t first_face, last_face;
-    KickLoad first, second;
-    KickVelocity velocity;
-  };
-
   void find_faces();
   void set_tractions(Real time);
-  void measure_wrenches();
-  void begin_step(Clock const& clock);
-  void end_step(Clock const& clock);
 
   SolidConfig config_;
   Solid& solid_;
   std::vector<Load> loads_;
   std::vector<BlastPart> blasts_;
-  std::vector<Loaded> loaded_;
-  std::vector<Real> normal_before_, extension_before_;  ///< t_n and S w_f of each face at the start of the step
+  std::size_t count_ = 0;  ///< of the loaded faces of this rank: the first of Solid::face_tractions
+  FaceAccount account_of_faces_;
   LoadAccount account_;
   Real longest_step_ = 1e300;  ///< s
   Real time_ = 0, saved_time_ = 0;
