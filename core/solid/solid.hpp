@@ -115,7 +115,7 @@ class Solid {
   Real face_opening(Index particle) const { return face_opening_[static_cast<std::size_t>(particle)]; }
   /// lambda over the effective volume, Pa/m3: pressure() over opened().
   Real bulk(Index particle) const { return bulk_[static_cast<std::size_t>(particle)]; }
-  /// A free face of an owned particle that something outside holds with the stiffness of its half link: the stable step
+  /// A free face of a particle here that something outside holds with the stiffness of its half link: the stable step
   /// counts it as clamped.
   void hold_face(Index particle, int face) { held_faces_.emplace(particle, face); }
 

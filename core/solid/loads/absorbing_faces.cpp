@@ -54,7 +54,7 @@ AbsorbingFaces::AbsorbingFaces(SolidConfig const& config, Solid& solid) : solid_
     if (l < 0) continue;
     here_.push_back(all[f]);
     number_.push_back(static_cast<GlobalId>(f));
-    if (l < solid_.owned()) solid_.hold_face(l, all[f].face);
+    solid_.hold_face(l, all[f].face);
   }
   offset_ = solid_.add_loaded_faces(loads);
   states_.resize(here_.size());

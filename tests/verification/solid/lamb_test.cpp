@@ -128,10 +128,8 @@ TEST(Lamb, SurfaceDisplacementUnderAPointForce) {
   LambErrors const cheap = run_lamb(15, 8);
   EXPECT_TRUE(evidence::at_most("S16", "Lamb", "r = 15, axis", "L2 error, surface points", cheap.axis, 0.04));
   EXPECT_TRUE(evidence::at_most("S16", "Lamb", "r = 15, diagonal", "L2 error, surface points", cheap.diagonal, 0.04));
-  std::printf("lamb %g %g %g\n", cheap.axis, cheap.diagonal, cheap.axis_rigid);
   if (!evidence::full()) return;
   LambErrors const fine = run_lamb(30, 16);
-  std::printf("lamb %g %g %g\n", fine.axis, fine.diagonal, fine.axis_rigid);
   EXPECT_TRUE(evidence::at_most("S16", "Lamb", "r = 30, axis", "L2 error, surface points", fine.axis, 0.015));
   EXPECT_TRUE(evidence::at_most("S16", "Lamb", "r = 30, diagonal", "L2 error, surface points", fine.diagonal, 0.015));
   EXPECT_TRUE(evidence::at_most("S16", "Lamb", "r = 30, axis", "L2 error, rigid motion alone", fine.axis_rigid, 0.035));

@@ -141,27 +141,77 @@ TEST(PlaneWaves, TractionStepGivesTheExactParticleVelocity) {
   }
 }
 
+/// Largest speed that stays behind after a smooth pulse of `cells` rise and fall has left, over its own.
+struct Leaving {
+  Real reflected, dissipated, defect, momentum;
+};
+Leaving let_out(Real nu, bool shear, Real cells) {
+  Real const stress = 1e-5, g = 0.5 / (1 + nu), c = std::sqrt(shear ? g : 2 * g * (1 - nu) / (1 - 2 * nu));
+  Real const rise = cells / c;
+  Index const length = static_cast<Index>(shear ? cells : 2 * cells);
+  // In the plane the middle line must not hear of the free sides while it is watched.
+  Index const width = shear ? static_cast<Index>(20 * cells) : 1;
+  Vec3 const traction{shear ? 0 : stress, shear ? stress : 0, 0};
+  Strip strip(nu, length, width, traction, {"smooth", 0, rise, {}}, true);
+  strip.config.traction.push_back(strip.config.traction[0]);
+  strip.config.traction[1].traction = -traction;
+  strip.config.traction[1].pulse->start = rise;
+  int const dimension = shear ? 2 : 1;
+  strip.to(1, dimension);
+  strip.largest(2.5 * rise + length / c, dimension, 0);
+  Real const left = strip.largest((shear ? 3 : 6) * rise + length / c, dimension, 0) * c / stress;
+  Ledger const& ledger = strip.run->simulation.ledger();
+  return {left, ledger.received(Entry::dissipated) / ledger.received(Entry::in_energy), ledger.conservation().energy,
+          max(ledger.conservation().momentum.x, ledger.conservation().momentum.y)};
+}
+
 TEST(AbsorbingFaces, LetPlaneWavesOutAndBookWhatTheyTake) {
-  Real const stress = 1e-5;
-  for (Real nu : {0.0, 0.3, 0.45, 0.49}) {
-    Real const g = 0.5 / (1 + nu), cp = std::sqrt(2 * g * (1 - nu) / (1 - 2 * nu)), cs = std::sqrt(g);
-    Strip p(nu, 60, 1, {stress, 0, 0}, {"half_sine", 0, 20 / cp, {}}, true);
-    p.to(20 / cp, 1);
-    p.largest(85 / cp, 1, 0);  // until the end of the pulse has left
-    Real const left = p.largest(130 / cp, 1, 0) * cp / stress;
-    EXPECT_TRUE(evidence::at_most("S6", "absorbing face", "P, 20 cells long, nu " + number(nu), "reflected / incident",
-                                  left, 0.5));
-    auto const& ledger = p.run->simulation.ledger();
-    EXPECT_TRUE(evidence::near("S6", "absorbing face", "P, nu " + number(nu), "dissipated / work of the load",
-                               ledger.received(Entry::dissipated) / ledger.received(Entry::in_energy), 1, 0.5));
-    EXPECT_LE(ledger.conservation().momentum.x, 1e-13);
-    std::printf("nu %g reflected %.4g  energy defect %.3g final %.3g\n", nu, left, ledger.conservation().energy,
-                ledger.conservation().energy_final);
-    if (nu > 0.4) continue;
-    Strip s(nu, 24, 240, {0, stress, 0}, {"half_sine", 0, 20 / cs, {}}, true);
-    s.to(50 / cs, 2);
-    Real const stays = s.largest(56 / cs, 2, 0) * cs / stress;
-    std::printf("S nu %g reflected %.4g\n", nu, stays);
+  // Pulses of 10 and 20 cells rise. What a lattice without an end leaves behind the pulse counts too: at nu = 0.49 it
+  // is 0.058 and 0.014.
+  struct Case {
+    Real nu;
+    bool shear;
+    Real limit;
+  };
+  for (Case const& c : {Case{0, false, 5e-4},
+                        {0.3, false, 7e-4},
+                        {0.45, false, 2.2e-3},
+                        {0.49, false, 0.04},
+                        {0, true, 3e-4},
+                        {0.3, true, 3e-4}}) {
+    Leaving const coarse = let_out(c.nu, c.shear, 10), fine = let_out(c.nu, c.shear, 20);
+    std::string const id = c.shear ? "S7" : "S6", variant = std::string(c.shear ? "S" : "P") + ", nu " + number(c.nu);
+    EXPECT_TRUE(evidence::at_most(id, "absorbing face", variant + ", smooth pulse of 20 + 20 cells",
+                                  "reflected / incident speed", fine.reflected, c.limit));
+    EXPECT_GE(coarse.reflected / fine.reflected, 3.3) << variant;
+    // The lossless rest: what still moves, and in the plane the waves along the free sides.
+    EXPECT_TRUE(evidence::near(id, "absorbing face", variant, "dissipated / work of the load", fine.dissipated, 1,
+                               c.shear ? 0.02 : 1e-3));
+    EXPECT_LE(fine.momentum, 1e-13);
+    EXPECT_LE(fine.defect, 2.5e-3);
+  }
+}
+
+TEST(AbsorbingFaces, OnlyTakeEnergyAtTheStableStep) {
+  for (Real nu : {-0.9, 0.0, 0.3, 0.49}) {
+    SolidConfig config = testing::one_material(1, 1, nu);
+    config.body.push_back(testing::box({0, 0, 0}, {4, 3, 3}, {4, 3, 3}));
+    config.motion.cfl = 1;
+    config.absorbing.emplace_back();
+    auto const comm = parallel::serial();
+    SolidRun run(config, 3, 1e9, *comm);
+    testing::Random random(5);
+    for (Motion& m : run.solid.motion()) {
+      m.v = 1e-4 * random.vector();
+      m.spin = 1e-5 * random.vector();
+    }
+    run.start();
+    Real const at_first = run.energy();
+    for (int n = 0; n < 2000; ++n) run.simulation.pair();
+    Ledger const& ledger = run.simulation.ledger();
+    EXPECT_LE(run.energy(), 1e-3 * at_first) << nu;
+    EXPECT_NEAR(ledger.received(Entry::dissipated) / at_first, 1, 0.05) << nu;
+    EXPECT_LE(norm(ledger.conservation().momentum), 1e-13) << nu;
   }
 }
 
@@ -256,10 +306,43 @@ TEST(Loads, KeepTheAccountOfEnergy) {
     auto const& c = run.simulation.ledger().conservation();
     EXPECT_LE(norm(c.momentum), 1e-13);
     defect[halved] = c.energy;
-    std::printf("energy defect %.4g final %.4g, total %.4g\n", c.energy, c.energy_final, run.energy());
   }
-  EXPECT_LE(defect[0], 1e-2);
+  EXPECT_LE(defect[0], 1e-4);
   EXPECT_GE(defect[0] / defect[1], 3.5);
+}
+
+// Of small motions the account leaves exactly dt^2/8 of the sum of (internal force . acceleration): what Verlet's
+// energy lacks of its conserved one.
+TEST(Loads, LeaveTheRemainderOfVerletInTheAccount) {
+  SolidConfig config = testing::one_material(1, 1, 0.45);
+  config.body.push_back(testing::box({0, 0, 0}, {4, 3, 3}, {4, 3, 3}));
+  config.pressure.emplace_back();
+  config.pressure[0].normal = Vec3{0, 0, 1};
+  config.pressure[0].pressure = 1e-8;
+  config.pressure[0].pulse = PulseConfig{"half_sine", 1, 17, {}};
+  config.traction = {end_traction({1, 0, 0}, {4e-9, 1e-8, -3e-9})};
+  config.traction[0].pulse = PulseConfig{"step", 7, std::nullopt, {}};  // a jump within a step, too
+  auto const comm = parallel::serial();
+  SolidRun run(config, 3, 1e9, *comm);
+  run.start();
+  Real worst = 0;
+  for (int n = 0; n < 60; ++n) {
+    run.simulation.pair();
+    auto const count = static_cast<std::size_t>(run.solid.owned());
+    std::vector<Wrench> load(count);
+    run.solid.face_tractions().add_wrench(run.solid.pose(), load);
+    Real remainder = 0;
+    for (Index p = 0; p < run.solid.owned(); ++p) {
+      auto const at = static_cast<std::size_t>(p);
+      Wrench const& all = run.solid.internal()[at];
+      remainder += dot(all.force - load[at].force, all.force) * run.solid.motion()[at].inverse_mass +
+                   dot(all.torque - load[at].torque, run.solid.omega_of(p, all.torque));
+    }
+    Real const dt = run.simulation.clock().dt;
+    Real const defect = run.energy() - run.simulation.ledger().received(Entry::in_energy);
+    worst = max(worst, std::abs(defect - dt * dt / 8 * remainder));
+  }
+  EXPECT_LE(worst / run.energy(), 1e-9);
 }
 
 TEST(Pressure, OpensARing) {
@@ -285,8 +368,7 @@ TEST(Pressure, OpensARing) {
   // Lame, nu = 0, at r = 10: u = p a^2 / (E (b^2 - a^2)) (r + b^2 / r).
   Real const a = 9.5, b = 10.5, r = 10, exact = 1e-5 * a * a / (b * b - a * a) * (r + b * b / r);
   EXPECT_TRUE(evidence::near("S14", "ring under inner pressure", "60 wedges, one layer", "radial displacement / exact",
-                             moved / exact, 1, 5e-2));
-  std::printf("ring %.6g\n", moved / exact);
+                             moved / exact, 1, 2e-3));
 }
 
 }  // namespace

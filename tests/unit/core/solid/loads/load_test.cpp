@@ -155,6 +155,14 @@ TEST(Loads, RefuseWhatCannotBe) {
   expect_says(complaint([&] { run(config); }), "needs six numbers");
   config.moment_tensor[0].moment = {1, 1, 1, 0, 0, 0};
   expect_says(complaint([&] { run(config); }), "a particle with a boundary face");
+  config.moment_tensor.clear();
+  config.pressure.emplace_back();
+  config.pressure[0].body = "right";
+  config.absorbing.emplace_back();
+  config.absorbing[0].normal = Vec3{1, 0, 0};
+  config.absorbing[0].at = here;
+  expect_says(complaint([&] { run(config); }),
+              "scene.toml:3:1: solid.absorbing[0] takes a face of solid.body \"right\" that solid.pressure");
 }
 
 TEST(Loads, AreReadFromASceneAndEchoed) {
