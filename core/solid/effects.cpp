@@ -5,6 +5,7 @@
 #include "core/solid/loads/absorbing_faces.hpp"
 #include "core/solid/loads/point_loads.hpp"
 #include "core/solid/loads/surface_loads.hpp"
+#include "core/solid/rows.hpp"
 #include "parallel/archive.hpp"
 
 namespace brisance::solid {
@@ -12,18 +13,6 @@ namespace brisance::solid {
 namespace {
 
 constexpr std::size_t bytes_per_link = 176;  // ends, stiffness, area, arms, normal, bending tensor
-
-/// Consecutive ids as ranges of rows.
-std::vector<parallel::Range> rows_of(std::span<GlobalId const> ids) {
-  std::vector<parallel::Range> ranges;
-  for (GlobalId const id : ids) {
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == id)
-      ++ranges.back().count;
-    else
-      ranges.push_back({id, 1});
-  }
-  return ranges;
-}
 
 }  // namespace
 

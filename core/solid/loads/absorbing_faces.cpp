@@ -6,23 +6,13 @@
 
 #include "core/base/errors.hpp"
 #include "core/solid/loads/absorbing_faces.hpp"
+#include "core/solid/rows.hpp"
 
 namespace brisance::solid {
 namespace {
 
 constexpr std::uint32_t absorbing_kind = 0x41425342;  // "ABSB"
 constexpr int row_size = 6;
-
-std::vector<parallel::Range> rows_of(std::span<GlobalId const> ids) {
-  std::vector<parallel::Range> ranges;
-  for (GlobalId const id : ids) {
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == id)
-      ++ranges.back().count;
-    else
-      ranges.push_back({id, 1});
-  }
-  return ranges;
-}
 
 }  // namespace
 
