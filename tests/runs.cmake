@@ -26,7 +26,7 @@ brisance_same_digest(viscous-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/visc
 brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-bodies.toml 60)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
 brisance_same_digest(loads ${PROJECT_SOURCE_DIR}/tests/support/scenes/loads.toml 60)
-brisance_same_digest(blast-plate ${scenes}/blast-plate.toml 40)
+brisance_same_digest(blast-plate ${scenes}/blast-plate.toml 80)
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
