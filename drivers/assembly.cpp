@@ -12,10 +12,11 @@
 namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
-  static std::vector<std::string> const names{"fluid.euler",        "fluid.viscosity", "fluid.gravity",
-                                              "solid.motion",       "solid.links",     "solid.gravity",
-                                              "solid.supports",     "solid.damping",   "solid.fracture",
-                                              "coupling.cut_cells", "output.gauges",   "output.solid_gauges"};
+  static std::vector<std::string> const names{
+      "fluid.euler",        "fluid.viscosity",     "fluid.gravity",      "solid.motion",   "solid.links",
+      "solid.gravity",      "solid.supports",      "solid.pressure",     "solid.traction", "solid.blast",
+      "solid.point_force",  "solid.moment_tensor", "solid.absorbing",    "solid.damping",  "solid.fracture",
+      "coupling.cut_cells", "output.gauges",       "output.solid_gauges"};
   return names;
 }
 

@@ -35,6 +35,8 @@ brisance_same_digest(supports ${PROJECT_SOURCE_DIR}/tests/support/scenes/support
 brisance_same_digest(paddle ${PROJECT_SOURCE_DIR}/tests/support/scenes/paddle.toml 40)
 brisance_same_digest(kinetic ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports.toml 120
                      --set "solid.damping={law=\"kinetic\", residual=1e-3}")
+brisance_same_digest(loads ${PROJECT_SOURCE_DIR}/tests/support/scenes/loads.toml 60)
+brisance_same_digest(blast-plate ${scenes}/blast-plate.toml 80)
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
@@ -58,6 +60,13 @@ foreach(fault overlapping-bodies non-convex-cells)
   brisance_expect(scene_${fault} CODE 2 LABELS unit MESSAGE "${says_${fault}}" ABSENT ${runs}/${fault}
                   COMMAND ${program} run ${scene} --out ${runs}/${fault})
 endforeach()
+brisance_expect(scene_no_face_loaded CODE 2 LABELS unit ABSENT ${runs}/unloaded
+                MESSAGE "loads.toml:[0-9]+:[0-9]+: solid.traction.0. selects no face: none of the .* of solid.body .block."
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/loads.toml --out ${runs}/unloaded
+                        --set "solid.traction.0.normal=[0, 0, -1]")
+brisance_expect(scene_blast_too_far CODE 2 LABELS unit ABSENT ${runs}/far
+                MESSAGE "blast-plate.toml:[0-9]+:[0-9]+: solid.blast.0.: a face at .* published from 0.147 to 40"
+                COMMAND ${program} run ${scenes}/blast-plate.toml --out ${runs}/far --set "solid.blast.0.mass=1e-6")
 brisance_expect(scene_wall_leaves_its_cell CODE 2 LABELS unit ABSENT ${runs}/wall
                 MESSAGE "sides.toml:[0-9]+:[0-9]+: fluid.boundary.y_low is a wall that moves by"
                 COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/sides.toml --out ${runs}/wall

@@ -26,3 +26,7 @@ brisance_test(solid_fracture SOURCES verification/solid/fracture_test.cpp verifi
 brisance_test(solid_supports SOURCES verification/solid/supports_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_damping SOURCES verification/solid/damping_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_supports_parallel SOURCES parallel/supports_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
+brisance_test(solid_loads_unit SOURCES unit/core/solid/loads/blast_test.cpp unit/core/solid/loads/load_test.cpp
+  LINKS brisance::solid LABELS unit)
+brisance_test(solid_loads SOURCES verification/solid/loads_test.cpp verification/solid/lamb_test.cpp
+  LINKS brisance::solid LABELS verification)

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/solid/face_tractions.hpp"
 #include "core/solid/halo.hpp"
 #include "core/solid/links/link_store.hpp"
 #include "core/solid/measures.hpp"
@@ -81,19 +82,16 @@ class Solid {
   /// A step without a fluid: kick_and_drift, exchange, forces, half_kick.
   void step(Real dt);
 
-  /// Tractions on boundary faces until the next call; the same list on every rank.
-  /// Expects: free faces of the mesh, by particle.  They enter forces and volumetric strains at the next
-  /// compute_forces.
+  /// Tractions on boundary faces until the next call; the same list on every rank, each face once.
+  /// Expects: free faces of the mesh.  They enter forces and volumetric strains at the next compute_forces.
   void load_faces(std::span<FaceLoad const> loads);
-  struct LoadedFace {
-    Index particle;
-    Vec3 force, arm;  ///< body frame
-    Real stored;      ///< S d t_n^2 / 4G
-    int face;
-    Real normal;  ///< t_n, Pa
-  };
-  /// What load_faces was given, of the particles of this rank.
-  std::span<LoadedFace const> loaded_faces() const { return loaded_; }
+  /// More of them. Returns the place of the first in face_tractions().
+  std::size_t add_loaded_faces(std::span<FaceLoad const> loads);
+  /// The loaded faces of this rank, in the order in which they were given. After a change of their tractions,
+  /// tractions_changed().
+  FaceTractions& face_tractions() { return face_tractions_; }
+  FaceTractions const& face_tractions() const { return face_tractions_; }
+  void tractions_changed() { face_tractions_.open(face_opening_); }
 
   // Links of this rank, in global order: those of owned particles and of the first layer of ghosts.
   LinkStore const& link_store() const { return links_; }
@@ -133,6 +131,15 @@ class Solid {
   LinkWrench<double> wrench_of(std::size_t link) const;
   /// Energy of a link in this body, J: of a link to a mirror image the half on this side.
   Real link_energy(std::size_t link) const;
+  /// S du . n of a link at the present poses: the volume its gap opens, m3.
+  Real gap_volume(std::size_t link) const;
+  /// Volume opened by the tractions on the faces of a particle, m3.
+  Real face_opening(Index particle) const { return face_opening_[static_cast<std::size_t>(particle)]; }
+  /// lambda over the effective volume, Pa/m3: pressure() over opened().
+  Real bulk(Index particle) const { return bulk_[static_cast<std::size_t>(particle)]; }
+  /// A free face of a particle here that something outside holds with the stiffness of its half link: the stable step
+  /// counts it as clamped.
+  void hold_face(Index particle, int face) { held_faces_.emplace(particle, face); }
 
   /// Makes room for damage; without it every link is whole for ever.
   void allow_damage() {
@@ -266,7 +273,8 @@ class Solid {
   std::size_t broken_ = 0;
   std::vector<GapBlock> gaps_;  // empty without damage
   bool volumetric_ = false;     // some lambda is not zero
-  std::vector<LoadedFace> loaded_;
+  FaceTractions face_tractions_;
+  std::multimap<Index, int> held_faces_;
   Reactions reactions_;
   mutable std::vector<double> link_limits_;
 };

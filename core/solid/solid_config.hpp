@@ -10,6 +10,7 @@
 #include "core/base/vec3.hpp"
 #include "core/solid/damping/damping_config.hpp"
 #include "core/solid/fracture/fracture_config.hpp"
+#include "core/solid/loads/load_config.hpp"
 #include "core/solid/meshes/mesh_file_config.hpp"
 #include "core/solid/supports/support_config.hpp"
 
@@ -75,6 +76,12 @@ struct SolidConfig {
   std::optional<Vec3> gravity;  ///< m/s2
   std::optional<FractureConfig> fracture;
   std::optional<DampingConfig> damping;
+  std::vector<PressureConfig> pressure;
+  std::vector<TractionConfig> traction;
+  std::vector<BlastConfig> blast;
+  std::vector<PointForceConfig> point_force;
+  std::vector<MomentTensorConfig> moment_tensor;
+  std::vector<AbsorbingConfig> absorbing;
   Location at;
   static void keys(Keys<SolidConfig>& k);
 };

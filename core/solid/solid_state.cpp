@@ -78,8 +78,8 @@ void Solid::measure(Measures& to) const {
   for (std::size_t k = 0; k < links_.count(); ++k) {
     if (links_.end_i(k) < owned_) to.add(Measures::elastic, link_energy(k));
   }
-  for (LoadedFace const& face : loaded_)
-    if (face.particle < owned_) to.add(Measures::elastic, -face.stored);
+  for (FaceTractions::Face const& face : face_tractions_.faces())
+    if (face.particle < owned_) to.add(Measures::elastic, FaceTractions::energy(face));
 }
 
 Vec3 Solid::spin_of(Index particle, Vec3 const& omega) const {

@@ -131,8 +131,8 @@ std::vector<Real> Probe::values(Solid const& solid) const {
     // The point of the surface is not on the rigid particle (theory/solid.md section 7).
     FaceGeometry const& face = mesh.face(particle_, face_);
     Real opening = 0, traction = 0;
-    for (Solid::LoadedFace const& loaded : solid.loaded_faces())
-      if (loaded.particle == l && loaded.face == face_) traction += loaded.normal;
+    for (FaceTractions::Face const& loaded : solid.face_tractions().faces())
+      if (loaded.particle == l && loaded.face == face_) traction += loaded.normal_traction();
     for (FreeFace const& f : mesh.free_faces_of(particle_))
       if (f.face == face_ && !f.clamped)
         opening = f.distance / (2 * material.shear()) * (traction - solid.pressure()[at(l)]);

@@ -20,8 +20,8 @@ Mat3 mean_stress(Solid const& solid, Index particle) {
     bool const first = mesh.links[l].i == id;
     sum = sum + (first ? outer(rotate(q, vector(rest.arm_i)), force) : outer(rotate(q, vector(rest.arm_j)), -force));
   }
-  for (Solid::LoadedFace const& face : solid.loaded_faces())
-    if (face.particle == particle) sum = sum + outer(rotate(q, face.arm), rotate(q, face.force));
+  for (FaceTractions::Face const& face : solid.face_tractions().faces())
+    if (face.particle == particle) sum = sum + outer(rotate(q, face.arm), rotate(q, face.area * face.traction));
   Mat3 stress = (0.5 / mesh.shape(id).volume) * (sum + transpose(sum));
   Real const nu = mesh.material(id).poisson_ratio;
   if (mesh.dimension == 2) stress[2].z = nu * (stress[0].x + stress[1].y);
