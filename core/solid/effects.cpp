@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/solid/contact/contact.hpp"
 #include "parallel/archive.hpp"
 
 namespace brisance::solid {
@@ -78,6 +79,9 @@ void Dynamics::join(Plan& plan) {
     });
     plan.limit("solid.links",
                [this](Clock const&) { return solid_.stable_limit().by_rotation ? 1e300 : solid_.stable_step(); });
+  } else {
+    // Other effects add to the forces, which have to start from nothing.
+    plan.at(Stage::forces, [this](Clock const&) { solid_.compute_forces(); });
   }
 }
 
@@ -86,8 +90,9 @@ void Dynamics::start() {
   if (config_.links) solid_.compute_forces();
 }
 
-std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const&, Solid&, parallel::Comm&) {
+std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm& comm) {
   std::vector<std::unique_ptr<Effect>> effects;
+  if (config.contact) effects.push_back(std::make_unique<Contact>(config, solid, comm));
   return effects;
 }
 

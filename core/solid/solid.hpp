@@ -106,6 +106,8 @@ class Solid {
   /// on both sides. Every rank that has the link must do the same. Forces follow at the next compute_forces.
   /// Source: theory/solid.md section 14.  Expects: allow_damage.
   void weaken(std::size_t link, Real intact);
+  /// Changes whenever a link breaks or a broken one is put back: what depends on open faces is then due.
+  std::uint64_t breaks() const { return breaks_; }
   /// Does a link that is not broken join two particles? Expects: one of them owned or in the first layer of ghosts.
   bool linked(GlobalId a, GlobalId b) const;
 
@@ -129,6 +131,8 @@ class Solid {
   Real stable_step() const { return stable_limit().dt; }
   /// The bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
   StableStep link_limit() const;
+  /// 2/omega_I of one owned particle, s; 1e300 when it is held or has no links.
+  Real link_limit_of(Index owned) const;
 
   /// Adds the sums over owned particles and links to `to`; add over ranks with Comm::sum.
   void measure(Measures& to) const;
@@ -191,6 +195,7 @@ class Solid {
 
   LinkStore links_;
   std::vector<double> intact_;  // 1 - d of the links; empty without damage
+  std::uint64_t breaks_ = 0;
   bool volumetric_ = false;     // some lambda is not zero
   struct LoadedFace {
     Index particle;

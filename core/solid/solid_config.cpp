@@ -68,6 +68,7 @@ void SolidConfig::keys(Keys<SolidConfig>& k) {
   k("links", &SolidConfig::links, "", "elastic links between the particles of a body");
   k("motion", &SolidConfig::motion, "", "time integration of the particles");
   k("gravity", &SolidConfig::gravity, "m/s2", "acceleration of gravity");
+  k("contact", &SolidConfig::contact, "", "contact between bodies and between fragments");
 }
 
 }  // namespace brisance::solid

@@ -8,6 +8,7 @@
 
 #include "core/base/location.hpp"
 #include "core/base/vec3.hpp"
+#include "core/solid/contact/contact_config.hpp"
 
 namespace brisance {
 template <class T>
@@ -77,6 +78,7 @@ struct SolidConfig {
   std::optional<LinksConfig> links;
   MotionConfig motion;
   std::optional<Vec3> gravity;  ///< m/s2
+  std::optional<ContactConfig> contact;
   Location at;
   static void keys(Keys<SolidConfig>& k);
 };
