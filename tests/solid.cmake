@@ -7,6 +7,7 @@ brisance_test(solid_unit
 brisance_test(solid_meshes
   SOURCES unit/core/solid/meshes/gmsh_test.cpp unit/core/solid/meshes/surface_test.cpp
           unit/core/solid/meshes/quality_test.cpp
+          unit/core/solid/contact_test.cpp
   LINKS brisance::solid LABELS unit)
 brisance_test(solid_statics SOURCES verification/solid/statics_test.cpp LINKS brisance::solid LABELS verification)
 add_library(brisance_linear_solid STATIC support/linear_solid.cpp support/uniaxial.cpp)
@@ -30,3 +31,5 @@ brisance_test(solid_loads_unit SOURCES unit/core/solid/loads/blast_test.cpp unit
   LINKS brisance::solid LABELS unit)
 brisance_test(solid_loads SOURCES verification/solid/loads_test.cpp verification/solid/lamb_test.cpp
   LINKS brisance::solid LABELS verification)
+brisance_test(solid_contact SOURCES verification/solid/contact_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_contact_bits SOURCES parallel/contact_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)

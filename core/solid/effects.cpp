@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "core/solid/contact/contact.hpp"
 #include "core/solid/damping/damping.hpp"
 #include "core/solid/fracture/fracture.hpp"
 #include "core/solid/loads/absorbing_faces.hpp"
@@ -97,6 +98,7 @@ std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Sol
   if (!config.point_force.empty() || !config.moment_tensor.empty())
     effects.push_back(std::make_unique<PointLoads>(config, solid));
   if (!config.absorbing.empty()) effects.push_back(std::make_unique<AbsorbingFaces>(config, solid));
+  if (config.contact) effects.push_back(std::make_unique<Contact>(config, solid, comm));
   if (config.damping) effects.push_back(std::make_unique<Damping>(*config.damping, config, solid, comm));
   if (config.fracture) {
     require(config.links.has_value(), config.fracture->at,

@@ -157,11 +157,8 @@ class Solid {
   /// Gaps of the links of this rank, four to a block, at the last compute_forces; `opened` and `flexure` are those of
   /// what is left of a link.  Expects: allow_damage.
   std::span<GapBlock const> gaps() const { return gaps_; }
-  /// Ends of a link; the wall is at rest at the origin.
-  LinkEnds<double> link_ends(std::size_t link) const {
-    return ends_of(pose_[static_cast<std::size_t>(links_.end_i(link))],
-                   pose_[static_cast<std::size_t>(links_.end_j(link))]);
-  }
+  /// Changes whenever a link breaks or a broken one is put back: what depends on open faces is then due.
+  std::uint64_t breaks() const { return breaks_; }
   /// Does a link that is not broken join two particles? Expects: one of them owned or in the first layer of ghosts.
   bool linked(GlobalId a, GlobalId b) const;
 
@@ -187,6 +184,7 @@ class Solid {
   StableStep link_limit() const;
   /// The bound 2/omega_I of each owned particle, s; 1e300 where it has no link or does not move freely.
   std::span<double const> step_limits() const;
+  Real link_limit_of(Index owned) const { return step_limits()[static_cast<std::size_t>(owned)]; }
 
   // The parts of the energy, J: of a particle with its rotation, of its volumetric strain (owned and first layer, at
   // the last compute_forces), and of a link.
@@ -195,7 +193,6 @@ class Solid {
     auto const at = static_cast<std::size_t>(particle);
     return 0.5 * pressure_[at] * opened_[at];
   }
-  Real link_energy(std::size_t link) const { return solid::link_energy(links_.rest(link), link_ends(link)); }
   /// Adds the sums over owned particles and links to `to`; add over ranks with Comm::sum.
   void measure(Measures& to) const;
   /// Impulse and work of the reactions of fixed, prescribed and clamped parts since the last call; resets them. This
@@ -272,7 +269,8 @@ class Solid {
   std::vector<double> intact_;  // 1 - d of the links; empty without damage
   std::size_t broken_ = 0;
   std::vector<GapBlock> gaps_;  // empty without damage
-  bool volumetric_ = false;     // some lambda is not zero
+  std::uint64_t breaks_ = 0;
+  bool volumetric_ = false;  // some lambda is not zero
   FaceTractions face_tractions_;
   std::multimap<Index, int> held_faces_;
   Reactions reactions_;

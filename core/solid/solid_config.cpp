@@ -80,6 +80,7 @@ void SolidConfig::keys(Keys<SolidConfig>& k) {
   k("point_force", &SolidConfig::point_force, "", "forces at points");
   k("moment_tensor", &SolidConfig::moment_tensor, "", "seismic sources");
   k("absorbing", &SolidConfig::absorbing, "", "boundary faces that let plane waves out");
+  k("contact", &SolidConfig::contact, "", "contact between bodies and between fragments");
 }
 
 }  // namespace brisance::solid

@@ -8,6 +8,7 @@
 
 #include "core/base/location.hpp"
 #include "core/base/vec3.hpp"
+#include "core/solid/contact/contact_config.hpp"
 #include "core/solid/damping/damping_config.hpp"
 #include "core/solid/fracture/fracture_config.hpp"
 #include "core/solid/loads/load_config.hpp"
@@ -82,6 +83,7 @@ struct SolidConfig {
   std::vector<PointForceConfig> point_force;
   std::vector<MomentTensorConfig> moment_tensor;
   std::vector<AbsorbingConfig> absorbing;
+  std::optional<ContactConfig> contact;
   Location at;
   static void keys(Keys<SolidConfig>& k);
 };
