@@ -1,5 +1,6 @@
 // The solid of one rank: its particles, the ghosts they need, their links, and the verbs of a step.
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -118,6 +119,8 @@ class Solid {
     return ends_of(pose_[static_cast<std::size_t>(links_.end_i(link))],
                    pose_[static_cast<std::size_t>(links_.end_j(link))]);
   }
+  /// The particle at the far end of a link; count() for walls.
+  Index end_j(std::size_t link) const { return std::min(links_.end_j(link), count_); }
   /// Does a link that is not broken join two particles? Expects: one of them owned or in the first layer of ghosts.
   bool linked(GlobalId a, GlobalId b) const;
 
