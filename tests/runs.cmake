@@ -37,6 +37,7 @@ brisance_same_digest(kinetic ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports
                      --set "solid.damping={law=\"kinetic\", residual=1e-3}")
 brisance_same_digest(loads ${PROJECT_SOURCE_DIR}/tests/support/scenes/loads.toml 60)
 brisance_same_digest(blast-plate ${scenes}/blast-plate.toml 80)
+brisance_same_digest(brick-wall ${scenes}/brick-wall.toml 200 --set output.interval=1 --set "solid.body.1.velocity=[60, 0, 0]")
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
@@ -92,6 +93,12 @@ brisance_expect(check_two-bars CODE 0 LABELS unit
 brisance_expect(mesh_group_missing CODE 2 LABELS unit ABSENT ${runs}/no-group
                 MESSAGE "two-bars.toml:[0-9]+:[0-9]+: solid.body .bar.: .*meshes/two-bars.msh: no element is in a physical volume .copper.. Physical volumes: aluminium, steel"
                 COMMAND ${program} run ${scenes}/two-bars.toml --out ${runs}/no-group --set "solid.body.0.mesh.group=\"copper\"")
+
+brisance_expect(check_brick-wall CODE 0 LABELS unit MESSAGE "solid.contact +on.*contact +solid.contact.*372 particles, 833 links"
+                COMMAND ${program} check ${scenes}/brick-wall.toml --ranks 2)
+brisance_expect(scene_contact_in_a_gas CODE 2 LABELS unit ABSENT ${runs}/contact-gas
+                MESSAGE "solid.contact and coupling.cut_cells do not go together yet.*Leave contact out"
+                COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/contact-gas --set solid.contact.friction=0.3)
 
 brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)
