@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/solid/loads/blast_report.hpp"
 #include "core/solid/meshes/quality.hpp"
 #include "drivers/assembly.hpp"
 #include "drivers/commands.hpp"
@@ -252,6 +253,10 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
     for (std::string const& text : solid::warnings(q, *world->mesh)) fmt::print("  warning: {}\n", text);
   }
   if (!step_limit.text.empty()) fmt::print("  {}\n", step_limit.text);
+  if (scene.solid && !scene.solid->blast.empty()) {
+    fmt::print("\nblasts\n");
+    for (std::string const& line : solid::describe_blasts(*scene.solid, *world->mesh)) fmt::print("  {}\n", line);
+  }
   if (!charges.empty()) fmt::print("\ncharges\n");
   for (fluid::ChargeReport const& c : charges) {
     fmt::print("  {}\n", fluid::describe(c, world->dimension));
