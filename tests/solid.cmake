@@ -5,7 +5,12 @@ brisance_test(solid_unit
           unit/core/solid/fracture/link_laws_test.cpp unit/core/solid/fracture/fragments_test.cpp
   LINKS brisance::solid LABELS unit)
 brisance_test(solid_statics SOURCES verification/solid/statics_test.cpp LINKS brisance::solid LABELS verification)
-brisance_test(solid_rods SOURCES verification/solid/rods_test.cpp LINKS brisance::solid Eigen3::Eigen LABELS verification)
+add_library(brisance_linear_solid STATIC support/linear_solid.cpp)
+target_link_libraries(brisance_linear_solid PUBLIC brisance::solid Eigen3::Eigen PRIVATE brisance_test_main)
+target_compile_options(brisance_linear_solid PRIVATE -Wno-conversion)
+foreach(part rods waves)
+  brisance_test(solid_${part} SOURCES verification/solid/${part}_test.cpp LINKS brisance_linear_solid LABELS verification)
+endforeach()
 brisance_test(solid_rotation SOURCES verification/solid/rotation_test.cpp LINKS brisance::solid Eigen3::Eigen
   LABELS verification)
 brisance_test(solid_stable_step SOURCES verification/solid/stable_step_test.cpp LINKS brisance::solid LABELS verification)
