@@ -47,14 +47,19 @@ struct Modes {
 /// large as its lowest eigenvalue.  Errors: std::runtime_error without convergence to 1e-11.
 Modes lowest_modes(LinearSolid const& solid, int count, Real shift = 0);
 
+/// Displacement under small loads: K u = forces of the present state (those of load_faces and load() at rest).
+/// `anchor` (rad2/s2) times the mass holds the rigid motions of a free body, whose loads must balance.
+/// Errors: std::runtime_error if they do not.
+Eigen::VectorXd response(solid::Solid& solid, LinearSolid const& linear, Real anchor = 0);
+
 /// omega^2 of the waves exp(i k.X) of an unbounded lattice: `cell` are slots of one cell deep inside a block, `twin`
 /// tells of any slot which place in `cell` it repeats (-1: none).
 Eigen::VectorXd bloch_waves(LinearSolid const& solid, std::vector<std::size_t> const& cell,
                             std::function<int(std::size_t)> const& twin, Vec3 const& wave_vector);
 
-/// Moves the free particles of a solid on one rank to where internal forces and loads balance, by Newton's method with
-/// halved steps. `anchor` (rad2/s2) times the mass holds the rigid motions of a free body during the search.
-/// Returns the largest unbalanced force (N) or torque (N m).  Errors: std::runtime_error above `tolerance`.
+/// Moves the free particles of a solid on one rank to where internal forces and loads balance, by Newton's method.
+/// `anchor` (rad2/s2) times the mass holds the rigid motions of a free body during the search. Returns the largest
+/// unbalanced force (N) or torque (N m).  Errors: std::runtime_error above `tolerance`.
 Real balance(solid::Solid& solid, Real tolerance, Real anchor = 0);
 
 }  // namespace brisance::testing
