@@ -31,30 +31,45 @@ void displace(Pose& pose, std::size_t freedom, Real by) {
     pose.q = rotation(v) * pose.q;
 }
 
-/// Particles within `hops` links of p, p first.
-std::vector<GlobalId> around(Mesh const& mesh, GlobalId p, int hops) {
-  std::vector<GlobalId> found{p};
-  std::size_t first = 0;
-  for (int hop = 0; hop < hops; ++hop) {
-    std::size_t const last = found.size();
-    for (; first < last; ++first)
-      for (std::size_t l : mesh.links_of(found[first])) {
-        solid::Link const& link = mesh.links[l];
-        if (link.j == solid::Link::wall) continue;
-        GlobalId const other = link.i == found[first] ? link.j : link.i;
-        if (std::find(found.begin(), found.end(), other) == found.end()) found.push_back(other);
-      }
+/// Particles within some links of one another.
+class Neighbourhood {
+ public:
+  explicit Neighbourhood(Mesh const& mesh) : mesh_(mesh), seen_(at(mesh.size()), -1) {}
+  /// Those within `hops` links of p, p first.
+  std::vector<GlobalId> around(GlobalId p, int hops) {
+    ++stamp_;
+    std::vector<GlobalId> found{p};
+    seen_[at(p)] = stamp_;
+    std::size_t first = 0;
+    for (int hop = 0; hop < hops; ++hop) {
+      std::size_t const last = found.size();
+      for (; first < last; ++first)
+        for (std::size_t l : mesh_.links_of(found[first])) {
+          solid::Link const& link = mesh_.links[l];
+          if (link.j == solid::Link::wall) continue;
+          GlobalId const other = link.i == found[first] ? link.j : link.i;
+          if (seen_[at(other)] == stamp_) continue;
+          seen_[at(other)] = stamp_;
+          found.push_back(other);
+        }
+    }
+    return found;
   }
-  return found;
-}
+
+ private:
+  Mesh const& mesh_;
+  std::vector<int> seen_;
+  int stamp_ = 0;
+};
 
 /// Groups of particles that no particle feels together: a force reaches two links far, through the strain.
 std::vector<std::vector<GlobalId>> groups(Mesh const& mesh, std::vector<GlobalId> const& particles) {
+  Neighbourhood near(mesh);
   std::vector<int> colour(at(mesh.size()), -1);
   std::vector<std::vector<GlobalId>> groups;
   for (GlobalId p : particles) {
     std::vector<char> taken(groups.size() + 1, 0);
-    for (GlobalId q : around(mesh, p, 4))
+    for (GlobalId q : near.around(p, 4))
       if (colour[at(q)] >= 0) taken[static_cast<std::size_t>(colour[at(q)])] = 1;
     auto const c = static_cast<std::size_t>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
     if (c == groups.size()) groups.emplace_back();
@@ -96,6 +111,7 @@ LinearSolid linearise(Solid& solid) {
     out.centre.push_back(mesh.particle(p).centre);
     out.pole.push_back(mesh.particle(p).centre + mesh.shape(p).pole);
   }
+  Neighbourhood near(mesh);
   Solid::Saved state;
   solid.save(state);
   auto const poses = solid.pose();
@@ -104,7 +120,7 @@ LinearSolid linearise(Solid& solid) {
 
   for (auto const& group : groups(mesh, out.particles)) {
     std::vector<std::vector<GlobalId>> felt;
-    for (GlobalId p : group) felt.push_back(around(mesh, p, 2));
+    for (GlobalId p : group) felt.push_back(near.around(p, 2));
     for (std::size_t f = 0; f < out.freedom.size(); ++f) {
       // Forces are linear in a shift and torques at most quadratic: one wide central difference is exact. In a turn
       // they are sines and cosines: sixth order.
@@ -163,23 +179,50 @@ Modes lowest_modes(LinearSolid const& solid, int count, Real shift) {
   Sparse const shifted = k + shift * solid.mass;
   Eigen::SimplicialLDLT<Sparse> const solver(shifted);
   if (solver.info() != Eigen::Success) throw std::runtime_error("the shifted stiffness has no factors");
-  Eigen::Index const n = k.rows(), block = std::min<Eigen::Index>(n, count + std::max(8, count / 2));
+  // Block Krylov space of the shifted inverse with Rayleigh-Ritz: blocks, because modes of squares and balls come in
+  // multiplets, which a single vector would see once.
+  Eigen::Index const n = k.rows(), block = std::min<Eigen::Index>(n, 8), most = std::min<Eigen::Index>(n, 60 * block);
+  Eigen::MatrixXd basis(n, most);
+  Eigen::Index size = 0;
   Random random(11);
-  Eigen::MatrixXd x(n, block);
+  Eigen::MatrixXd next(n, block);
   for (Eigen::Index c = 0; c < block; ++c)
-    for (Eigen::Index r = 0; r < n; ++r) x(r, c) = random();
+    for (Eigen::Index r = 0; r < n; ++r) next(r, c) = random();
   Eigen::VectorXd previous = Eigen::VectorXd::Zero(count);
-  for (int sweep = 0; sweep < 300; ++sweep) {
-    Eigen::MatrixXd const y = solver.solve((solid.mass * x).eval());
-    Eigen::MatrixXd const a = y.transpose() * (k * y), b = y.transpose() * (solid.mass * y);
-    Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> const small(a, b);
-    x = y * small.eigenvectors();
-    Eigen::VectorXd const now = small.eigenvalues().head(count);
-    Real const scale = now(count - 1) + shift;
-    if ((now - previous).cwiseAbs().maxCoeff() <= 1e-11 * scale) return {now, x.leftCols(count)};
-    previous = now;
+  while (true) {
+    Eigen::Index const first = size;
+    for (Eigen::Index c = 0; c < next.cols() && size < most; ++c) {
+      Eigen::VectorXd v = next.col(c);
+      Real const before = std::sqrt(v.dot(solid.mass * v));
+      for (int pass = 0; pass < 2; ++pass)
+        v -= basis.leftCols(size) * (basis.leftCols(size).transpose() * (solid.mass * v)).eval();
+      Real const after = std::sqrt(v.dot(solid.mass * v));
+      if (after > 1e-9 * before) basis.col(size++) = v / after;
+    }
+    auto const q = basis.leftCols(size);
+    Eigen::MatrixXd const small = q.transpose() * (k * q);
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> const ritz(small);
+    if (size >= count) {
+      Eigen::VectorXd const now = ritz.eigenvalues().head(count);
+      bool const still = (now - previous).cwiseAbs().maxCoeff() <= 1e-9 * (now(count - 1) + shift);
+      if (still || size == n) return {now, q * ritz.eigenvectors().leftCols(count)};
+      previous = now;
+    }
+    if (size == most || size == first) throw std::runtime_error("the modes do not converge");
+    next = solver.solve((solid.mass * basis.middleCols(first, size - first)).eval());
   }
-  throw std::runtime_error("inverse iteration does not converge");
+}
+
+Eigen::VectorXd response(Solid& solid, LinearSolid const& linear, Real anchor) {
+  Eigen::SimplicialLDLT<Sparse> const solver(symmetric(linear.stiffness) + anchor * linear.mass);
+  Eigen::VectorXd const f = unbalanced(solid, linear);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(f.size()), left = f;
+  for (int sweep = 0; sweep < 10; ++sweep) {  // takes back what the anchor did
+    u += solver.solve(left);
+    left = f - linear.stiffness * u;
+    if (left.norm() <= 1e-12 * f.norm()) return u;
+  }
+  throw std::runtime_error("the loads do not balance");
 }
 
 Eigen::VectorXd bloch_waves(LinearSolid const& solid, std::vector<std::size_t> const& cell,
@@ -209,18 +252,6 @@ Eigen::VectorXd bloch_waves(LinearSolid const& solid, std::vector<std::size_t> c
   k = (0.5 * (k + k.adjoint())).eval();
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd>(k, m, Eigen::EigenvaluesOnly | Eigen::Ax_lBx)
       .eigenvalues();
-}
-
-Eigen::VectorXd response(Solid& solid, LinearSolid const& linear, Real anchor) {
-  Eigen::SimplicialLDLT<Sparse> const solver(symmetric(linear.stiffness) + anchor * linear.mass);
-  Eigen::VectorXd const f = unbalanced(solid, linear);
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(f.size()), left = f;
-  for (int sweep = 0; sweep < 10; ++sweep) {  // takes back what the anchor did
-    u += solver.solve(left);
-    left = f - linear.stiffness * u;
-    if (left.norm() <= 1e-12 * f.norm()) return u;
-  }
-  throw std::runtime_error("the loads do not balance");
 }
 
 Real balance(Solid& solid, Real tolerance, Real anchor) {

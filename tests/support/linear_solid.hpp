@@ -43,8 +43,8 @@ struct Modes {
   Real omega(Eigen::Index mode) const { return std::sqrt(omega2(mode)); }
 };
 
-/// The `count` lowest modes by inverse iteration on K + shift M; a free body needs a positive shift (rad2/s2) about as
-/// large as its lowest eigenvalue.  Errors: std::runtime_error without convergence to 1e-11.
+/// The `count` lowest modes by a Krylov space of (K + shift M)^-1 M; a free body needs a positive shift (rad2/s2) about
+/// as large as its lowest eigenvalue.  Errors: std::runtime_error without convergence to 1e-9.
 Modes lowest_modes(LinearSolid const& solid, int count, Real shift = 0);
 
 /// Displacement under small loads: K u = forces of the present state (those of load_faces and load() at rest).
