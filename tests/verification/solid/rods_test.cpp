@@ -41,19 +41,55 @@ Family family_of(testing::LinearSolid const& linear, Eigen::VectorXd const& shap
 class Rod {
  public:
   Rod(SolidConfig const& config, int modes, Real shift = 0) : rod_(config) {
-    auto const linear = testing::linearise(rod_.solid);
-    found_ = testing::lowest_modes(linear, modes, shift);
-    for (int m = 0; m < modes; ++m) family_.push_back(family_of(linear, found_.shape.col(m)));
+    linear_ = testing::linearise(rod_.solid);
+    found_ = testing::lowest_modes(linear_, modes, shift);
+    for (int m = 0; m < modes; ++m) family_.push_back(family_of(linear_, found_.shape.col(m)));
   }
   /// Frequency of the mode `place` (from 0) of a family, rad/s.
-  Real omega(Family family, int place) const {
-    for (std::size_t m = 0; m < family_.size(); ++m)
-      if (family_[m] == family && place-- == 0) return found_.omega(static_cast<Eigen::Index>(m));
-    throw std::runtime_error("fewer modes of a family than asked for");
+  Real omega(Family family, int place) const { return found_.omega(mode(family, place)); }
+
+  /// Sets the rod in motion in one of its modes and steps it in time: the frequency by the recurrence
+  /// q(t + dt) + q(t - dt) = 2 cos(omega dt) q(t) of the modal amplitude.
+  Real omega_in_time(Family family, Real dt, int steps) {
+    Eigen::VectorXd const shape = found_.shape.col(mode(family, 0)), test = linear_.mass * shape;
+    Real const speed = 1e-3 * omega(family, 0) / shape.cwiseAbs().maxCoeff();
+    Solid& solid = rod_.solid;
+    for (std::size_t s = 0; s < linear_.count(); ++s) {
+      auto const at = static_cast<std::size_t>(solid.local(linear_.particles[s]));
+      Eigen::Index const r = linear_.row(s);
+      solid.motion()[at].v = speed * Vec3{shape(r), shape(r + 1), shape(r + 2)};
+      solid.motion()[at].spin =
+          rod_.mesh.inertia(linear_.particles[s]) * (speed * Vec3{shape(r + 3), shape(r + 4), shape(r + 5)});
+    }
+    std::vector<Real> q{0};
+    for (int n = 0; n < steps; ++n) {
+      solid.step(dt);
+      Real amplitude = 0;
+      for (std::size_t s = 0; s < linear_.count(); ++s) {
+        Pose const& pose = solid.pose()[static_cast<std::size_t>(solid.local(linear_.particles[s]))];
+        Vec3 const shift = pose.x - linear_.centre[s], turn = 2 * pose.q.v;
+        for (int d = 0; d < 3; ++d)
+          amplitude += test(linear_.row(s) + d) * shift[d] + test(linear_.row(s) + 3 + d) * turn[d];
+      }
+      q.push_back(amplitude);
+    }
+    Real bend = 0, square_sum = 0;  // 2 - 2 cos(omega dt) = (2 sin(omega dt / 2))^2
+    for (std::size_t n = 1; n + 1 < q.size(); ++n) {
+      bend -= q[n] * ((q[n + 1] - q[n]) - (q[n] - q[n - 1]));
+      square_sum += q[n] * q[n];
+    }
+    return 2 / dt * std::asin(0.5 * std::sqrt(bend / square_sum));
   }
+  Real stable_step() const { return rod_.solid.link_limit().dt; }
 
  private:
+  Eigen::Index mode(Family family, int place) const {
+    for (std::size_t m = 0; m < family_.size(); ++m)
+      if (family_[m] == family && place-- == 0) return static_cast<Eigen::Index>(m);
+    throw std::runtime_error("fewer modes of a family than asked for");
+  }
   testing::Lone rod_;
+  testing::LinearSolid linear_;
   testing::Modes found_;
   std::vector<Family> family_;
 };
@@ -79,6 +115,22 @@ TEST(Rod, FrequenciesOfStretchTwistAndBend) {
     EXPECT_NEAR(first, second, 1e-8 * first);
     EXPECT_TRUE(evidence::near("S10", "clamped-free rod", "80 cells, mode " + std::to_string(b + 1), "omega", first,
                                expected[b], 5e-4 * expected[b]));
+  }
+}
+
+TEST(Rod, VibratesInTimeAsItsModesAndTheStepSay) {
+  struct Row {
+    char const* id;
+    Family family;
+  };
+  for (Row const& row : {Row{"S8", Family::stretch}, Row{"S9", Family::twist}, Row{"S10", Family::bend}}) {
+    Rod rod(clamped_rod({20, 1, 1}, 1), 10);
+    Real const omega = rod.omega(row.family, 0), dt = 0.9 * rod.stable_step();
+    Real const expected = 2 / dt * std::asin(0.5 * omega * dt);  // Verlet, theory section 10
+    Real const got = rod.omega_in_time(row.family, dt, 3000);
+    EXPECT_TRUE(evidence::at_most(row.id, "clamped-free rod", "20 cells, in time",
+                                  "|omega / (that of the mode with the error of the step) - 1|",
+                                  std::abs(got / expected - 1), 1e-6));
   }
 }
 

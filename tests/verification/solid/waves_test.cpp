@@ -17,18 +17,24 @@ std::string short_number(Real x) { return std::to_string(x).substr(0, 5); }
 /// A block of cubes in which the forces on the middle one know nothing of the sides: those of an unbounded lattice.
 class Lattice {
  public:
-  explicit Lattice(Real poisson_ratio) {
+  explicit Lattice(Real poisson_ratio, int dimension = 3) {
     SolidConfig config = testing::one_material(1, 1, poisson_ratio);
-    config.body.push_back(testing::box({-2.5, -2.5, -2.5}, {2.5, 2.5, 2.5}, {5, 5, 5}));
-    testing::Lone block(config);
+    std::array<Index, 3> cells{5, dimension > 1 ? 5 : 1, dimension > 2 ? 5 : 1};
+    config.body.push_back(testing::box({-2.5, -2.5, -2.5}, {2.5, 2.5, 2.5}, cells));
+    testing::Lone block(config, dimension);
     linear_ = testing::linearise(block.solid);
+    Vec3 const middle{0, dimension > 1 ? 0 : 0.5, dimension > 2 ? 0 : 0.5};  // slabs lie in [0, 1]
     for (std::size_t s = 0; s < linear_.count(); ++s)
-      if (norm(linear_.centre[s]) < 0.1) middle_ = s;
+      if (norm(linear_.centre[s] - middle) < 0.1) middle_ = s;
+  }
+  /// omega^2 of all waves, ascending.
+  Eigen::VectorXd eigenvalues(Vec3 const& wave_vector) const {
+    return testing::bloch_waves(
+        linear_, {middle_}, [](std::size_t) { return 0; }, wave_vector);
   }
   /// omega of the two S waves and the P wave, ascending.
   std::array<Real, 3> omega(Vec3 const& wave_vector) const {
-    auto const omega2 = testing::bloch_waves(
-        linear_, {middle_}, [](std::size_t) { return 0; }, wave_vector);
+    Eigen::VectorXd const omega2 = eigenvalues(wave_vector);
     return {std::sqrt(omega2(0)), std::sqrt(omega2(1)), std::sqrt(omega2(2))};
   }
 
@@ -68,7 +74,23 @@ TEST(PlaneWaves, FollowTheLatticeFormulasAlongTheAxes) {
   }
 }
 
-TEST(PlaneWaves, ErrOfTheSpeedByTheCoefficientsOfTheTable) {
+TEST(PlaneWaves, AreTheSameInSlabs) {
+  for (Real nu : {-0.9, 0.3, 0.49}) {
+    Material const m{"m", 1, 1, nu};
+    Real const k = 2 * pi / 20;
+    std::string const variant = "[100] nu " + short_number(nu) + " 20 cells";
+    // Ascending: in 1D the P wave alone, in 2D the S wave of the plane and the P wave.
+    auto const line = Lattice(nu, 1).eigenvalues({k, 0, 0}), plane = Lattice(nu, 2).eigenvalues({k, 0, 0});
+    EXPECT_TRUE(evidence::at_most("S6", "P wave", "1D " + variant, "|omega / lattice formula - 1|",
+                                  std::abs(std::sqrt(line(0)) / p_wave(m, k) - 1), 1e-6));
+    EXPECT_TRUE(evidence::at_most("S6", "P wave", "2D " + variant, "|omega / lattice formula - 1|",
+                                  std::abs(std::sqrt(plane(1)) / p_wave(m, k) - 1), 1e-6));
+    EXPECT_TRUE(evidence::at_most("S7", "S wave", "2D " + variant, "|omega / lattice formula - 1|",
+                                  std::abs(std::sqrt(plane(0)) / s_wave(m, k) - 1), 1e-6));
+  }
+}
+
+TEST(PlaneWaves, AreFastOrSlowByTheCoefficientsOfTheTable) {
   struct Row {
     Real nu, p, s100, s110_low, s110_high, s111;
   };
