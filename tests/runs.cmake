@@ -28,6 +28,7 @@ brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/v
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
 brisance_same_digest(bursting-wheel ${scenes}/bursting-wheel.toml 80 --set solid.body.0.particles=300)
 brisance_same_digest(break-up ${PROJECT_SOURCE_DIR}/tests/support/scenes/break-up.toml 44)
+brisance_same_digest(rods-and-plates ${PROJECT_SOURCE_DIR}/tests/support/scenes/rods-and-plates.toml 120)
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
@@ -61,6 +62,9 @@ brisance_expect(scene_fracture_without_links CODE 2 LABELS unit ABSENT ${runs}/n
                 COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/free-particles.toml --out ${runs}/no-links)
 brisance_expect(check_bursting-wheel CODE 0 LABELS unit MESSAGE "solid.fracture +on.*300 particles.*warning: the softening zone of 0.0521 m"
                 COMMAND ${program} check ${scenes}/bursting-wheel.toml --ranks 2 --set solid.body.0.particles=300)
+brisance_expect(run_rods-and-plates CODE 0 LABELS verification
+                MESSAGE "momentum [0-9.]+e-1[4-9], exchange energy 0.0e.00, energy [0-9.]+e-0[7-9]"
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/rods-and-plates.toml --out ${runs}/rods-and-plates-whole)
 brisance_expect(check_explosion-cylinder CODE 0 LABELS unit MESSAGE "coupling.cut_cells +on.*180000 cells.*50 particles, 50 links"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --ranks 4)
 brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity +off: .*output.gauges +on.*416 particles.*charges +fluid.charge.0.: 1 kg of gas with 4.184 MJ above"
