@@ -217,11 +217,12 @@ Eigen::VectorXd response(Solid& solid, LinearSolid const& linear, Real anchor) {
   Eigen::SimplicialLDLT<Sparse> const solver(symmetric(linear.stiffness) + anchor * linear.mass);
   Eigen::VectorXd const f = unbalanced(solid, linear);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(f.size()), left = f;
-  for (int sweep = 0; sweep < 10; ++sweep) {  // takes back what the anchor did
-    u += solver.solve(left);
-    left = f - linear.stiffness * u;
-    if (left.norm() <= 1e-12 * f.norm()) return u;
+  while (true) {  // takes back what the anchor did, down to rounding
+    Eigen::VectorXd const better = u + solver.solve(left), rest = f - linear.stiffness * better;
+    if (rest.norm() > 0.5 * left.norm()) break;
+    u = better, left = rest;
   }
+  if (left.norm() <= 1e-9 * f.norm()) return u;
   throw std::runtime_error("the loads do not balance");
 }
 

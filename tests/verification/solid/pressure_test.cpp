@@ -126,5 +126,16 @@ TEST(InnerPressure, SwellsThickTubesAndShellsAsLameSays) {
   }
 }
 
+TEST(InnerPressure, StretchesAShellOfOneLayer) {
+  BodyConfig coarse = round("shell", "polar", 1, 1.05), fine = coarse;
+  coarse.cells = {1, 24, 12};
+  fine.cells = {1, 48, 24};
+  Real const error = lame_error(fine, 0.3, 3);
+  EXPECT_TRUE(evidence::at_most("S15b", "inner pressure", "shell t = a / 20 of 1 x 48 x 24 frusta nu 0.300",
+                                "rms error over u(a)", error, 0.03));
+  EXPECT_TRUE(evidence::at_most("S15b", "inner pressure", "shell t = a / 20, half the size nu 0.300",
+                                "error, fine over coarse", error / lame_error(coarse, 0.3, 3), 1 / 3.3));
+}
+
 }  // namespace
 }  // namespace brisance::solid
