@@ -5,7 +5,7 @@ brisance_test(solid_unit
           unit/core/solid/fracture/link_laws_test.cpp unit/core/solid/fracture/fragments_test.cpp
   LINKS brisance::solid LABELS unit)
 brisance_test(solid_statics SOURCES verification/solid/statics_test.cpp LINKS brisance::solid LABELS verification)
-add_library(brisance_linear_solid STATIC support/linear_solid.cpp)
+add_library(brisance_linear_solid STATIC support/linear_solid.cpp support/uniaxial.cpp)
 target_link_libraries(brisance_linear_solid PUBLIC brisance::solid Eigen3::Eigen PRIVATE brisance_test_main)
 target_compile_options(brisance_linear_solid PRIVATE -Wno-conversion)
 foreach(part elastica patch plates pressure rods sphere waves)

@@ -2,67 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/evidence.hpp"
-#include "tests/support/linear_solid.hpp"
-#include "tests/support/solids.hpp"
+#include "tests/support/uniaxial.hpp"
 
 namespace brisance::solid {
 namespace {
-
-/// Affine field u = u0 + A (X - X0) fitted to the displacements of the poles, and how far they are off it.
-struct AffineFit {
-  Mat3 gradient{};
-  Real scatter = 0;  ///< rms distance from the field, m
-};
-
-AffineFit affine_fit(std::vector<Vec3> const& points, std::vector<Vec3> const& shifts) {
-  auto const n = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd at(n, 4), shift(n, 3);
-  for (Eigen::Index p = 0; p < n; ++p) {
-    Vec3 const &x = points[static_cast<std::size_t>(p)], &u = shifts[static_cast<std::size_t>(p)];
-    at.row(p) << x.x, x.y, x.z, 1;
-    shift.row(p) << u.x, u.y, u.z;
-  }
-  Eigen::MatrixXd const fit = (at.transpose() * at).ldlt().solve(at.transpose() * shift);
-  AffineFit out;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) out.gradient[r][c] = fit(c, r);
-  out.scatter = (shift - at * fit).norm() / std::sqrt(static_cast<Real>(n));
-  return out;
-}
-
-/// Pulls at the ends x = low and high of a body.
-void pull(testing::Lone& body, Real low, Real high, Real stress) {
-  std::vector<FaceLoad> loads;
-  for (FreeFace const& f : body.mesh.free_faces) {
-    FaceGeometry const& face = body.mesh.face(f.particle, f.face);
-    Real const x = body.mesh.particle(f.particle).centre.x + face.centroid.x;
-    if (std::abs(face.normal.x) > 0.5 && min(std::abs(x - low), std::abs(x - high)) < 1e-9)
-      loads.push_back({f.particle, f.face, {stress * face.normal.x, 0, 0}});
-  }
-  body.solid.load_faces(loads);
-}
-
-/// Strains per stress for small strains.
-AffineFit small_strain(testing::Lone& body, Real low, Real high) {
-  auto const linear = testing::linearise(body.solid);  // before the loads, which turn with their faces
-  pull(body, low, high, 1);
-  Eigen::VectorXd const u = testing::response(body.solid, linear, 1e-6);
-  std::vector<Vec3> shifts;
-  for (std::size_t s = 0; s < linear.count(); ++s) shifts.push_back(linear.pole_shift(u, s));
-  return affine_fit(linear.pole, shifts);
-}
-
-/// Strains in the true equilibrium.
-AffineFit finite_strain(testing::Lone& body, Real low, Real high, Real stress) {
-  pull(body, low, high, stress);
-  testing::balance(body.solid, 3e-12 * stress, 1e-7);
-  std::vector<Vec3> points, shifts;
-  for (GlobalId p = 0; p < body.mesh.size(); ++p) {
-    points.push_back(body.mesh.particle(p).centre);
-    shifts.push_back(body.solid.pose()[static_cast<std::size_t>(p)].x - points.back());
-  }
-  return affine_fit(points, shifts);
-}
 
 std::string name_of(Real nu) { return "nu " + std::to_string(nu).substr(0, 5); }
 
@@ -80,7 +23,7 @@ TEST(PatchTest, BricksUnderUniaxialStressAreExact) {
       SolidConfig config = testing::one_material(1, 1, nu);
       config.body.push_back(testing::box(-half, half, bar.cells));
       testing::Lone body(config);
-      AffineFit const fit = finite_strain(body, -half.x, half.x, stress);
+      testing::AffineFit const fit = testing::finite_strain(body, -half.x, half.x, stress);
       std::string const variant = std::to_string(bar.cells[0]) + "x" + std::to_string(bar.cells[1]) + "x" +
                                   std::to_string(bar.cells[2]) + " " + name_of(nu) + ", solved";
       EXPECT_TRUE(evidence::at_most("S4", "patch test", variant, "|E e_xx / sigma - 1|",
@@ -109,7 +52,7 @@ TEST(PatchTest, FittedVoronoiCellsWithTheBasicVolumetricTerm) {
     bar.lloyd = 20;
     config.body.push_back(bar);
     testing::Lone body(config);
-    AffineFit const fit = small_strain(body, -2, 2);
+    testing::AffineFit const fit = testing::small_strain(body, -2, 2);
     std::string const variant = "250 Voronoi cells " + name_of(row.nu);
     Real const e_xx = fit.gradient[0][0] - 1;
     EXPECT_TRUE(evidence::near("S5", "patch test", variant, "E e_xx / sigma - 1", e_xx, row.expected, row.slack));
