@@ -61,7 +61,7 @@ Draft tessellate_all(SolidConfig const& config, int dimension) {
       for (int d = dimension; d < 3; ++d) cells.centre[c][d] = 0.5;
       // A shape used by many cells is looked at once, at its first one.
       auto const shape = static_cast<std::size_t>(cells.shape[c]);
-      if (c == 0 || cells.shapes.size() > 1)
+      if (!cells.checked && (c == 0 || cells.shapes.size() > 1))
         if (auto const f = fault(cells.shapes[shape].polyhedron))
           throw Error(Failure::scene,
                       body.at.text() + ": solid.body \"" + body.name + "\": cell " + std::to_string(c) + " is " +

@@ -1,5 +1,6 @@
 // The solid in its reference state: particles, links and boundary faces of all bodies, the same on every rank.
 #pragma once
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -62,6 +63,13 @@ struct FreeFace {
   bool clamped = false;  ///< tied to the wall by a half link: boundary of the body, but no free face of the elastic law
 };
 
+/// A face of a particle.
+struct FaceId {
+  GlobalId particle = 0;
+  int face = 0;
+  auto operator<=>(FaceId const&) const = default;
+};
+
 struct Body {
   std::string name;
   GlobalId particles = 0;
@@ -80,6 +88,9 @@ struct Mesh {
   std::vector<FreeFace> free_faces;
   std::vector<std::size_t> first_link, link_of;  ///< links of particle p: link_of[first_link[p] .. first_link[p + 1])
   std::vector<std::size_t> first_free;           ///< free faces of particle p: [first_free[p], first_free[p + 1])
+  /// Faces of the physical surfaces (2D: curves) of mesh files, by name; sorted. A face inside a body is there with
+  /// both its sides.
+  std::map<std::string, std::vector<FaceId>> face_groups;
   Real torsion_ratio = 1;
 
   GlobalId size() const { return static_cast<GlobalId>(particles.size()); }
@@ -96,6 +107,11 @@ struct Mesh {
   std::span<FreeFace const> free_faces_of(GlobalId p) const {
     auto const at = static_cast<std::size_t>(p);
     return std::span(free_faces).subspan(first_free[at], first_free[at + 1] - first_free[at]);
+  }
+  /// The faces of a physical surface; nothing when no file has it.
+  std::span<FaceId const> face_group(std::string const& name) const {
+    auto const found = face_groups.find(name);
+    return found == face_groups.end() ? std::span<FaceId const>() : found->second;
   }
 };
 

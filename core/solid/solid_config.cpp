@@ -34,11 +34,14 @@ void PrescribedConfig::keys(Keys<PrescribedConfig>& k) {
 
 void BodyConfig::keys(Keys<BodyConfig>& k) {
   k("name", &BodyConfig::name, "", "name in messages and results");
-  k("material", &BodyConfig::material, "", "one of solid.material").required();
+  k("material", &BodyConfig::material, "", "one of solid.material; may be left out for a mesh whose physical volumes bear the names of materials");
   k("shape", &BodyConfig::shape, "", "geometric shape")
-      .one_of({"box", "plate", "prism", "cylinder", "tube", "sphere", "shell"});
-  k("tessellation", &BodyConfig::tessellation, "", "how the shape is cut into convex particles")
-      .one_of({"cartesian", "polar", "voronoi"});
+      .one_of({"box", "plate", "prism", "cylinder", "tube", "sphere", "shell", "mesh"});
+  k("tessellation", &BodyConfig::tessellation, "", 
+    "how the shape is cut into convex particles; not given: cartesian, or for a mesh: the elements of a .msh, voronoi in "
+    "a convex surface, tetrahedra in another")
+      .one_of({"cartesian", "polar", "voronoi", "elements", "tetrahedra"});
+  k("mesh", &BodyConfig::mesh, "", "mesh: the file and how to take it");
   k("low", &BodyConfig::low, "m", "box, prism: lower corner");
   k("high", &BodyConfig::high, "m", "box, prism: upper corner");
   k("centre", &BodyConfig::centre, "m", "plate, cylinder, tube, sphere, shell: centre");

@@ -9,6 +9,7 @@
 #include "core/base/location.hpp"
 #include "core/base/vec3.hpp"
 #include "core/solid/fracture/fracture_config.hpp"
+#include "core/solid/meshes/mesh_file_config.hpp"
 
 namespace brisance {
 template <class T>
@@ -51,7 +52,9 @@ struct PrescribedConfig {
 /// One body: a shape, its dimensions, and the tessellation that cuts it into convex particles.
 /// In 2D bodies are prisms over 0 <= z <= 1 m; in 1D slabs over 0 <= y, z <= 1 m.
 struct BodyConfig {
-  std::string name = "body", material, shape = "box", tessellation = "cartesian";
+  std::string name = "body", material, shape = "box";  // material: may come from the groups of a mesh file
+  std::optional<std::string> tessellation;             // cartesian; of a mesh file: elements, voronoi or tetrahedra
+  std::optional<MeshFileConfig> mesh;                  // shape "mesh"
   std::optional<Vec3> low, high;                   // box, prism (z only)
   std::optional<Vec3> centre;                      // all others: centre of the shape
   Vec3 axis{0, 0, 1};                              // cylinder, tube, plate (its normal)
