@@ -10,6 +10,7 @@
 #include "drivers/checkpoints.hpp"
 #include "drivers/commands.hpp"
 #include "drivers/log.hpp"
+#include "drivers/mesh_files.hpp"
 #include "drivers/output.hpp"
 #include "drivers/summary.hpp"
 #include "fluid/charges.hpp"
@@ -122,7 +123,9 @@ int execute(Job const& job, parallel::Comm& comm) {
   bool const fresh = job.checkpoints.empty();
   if (!job.same_scene) {
     parallel::write_text_atomically(comm, job.directory + "/scene.toml", job.loaded.text);
-    parallel::write_text_atomically(comm, job.directory + "/scene.resolved.toml", job.loaded.resolved());
+    LoadedScene kept = job.loaded;
+    keep_mesh_files(kept.scene, job.directory, comm);
+    parallel::write_text_atomically(comm, job.directory + "/scene.resolved.toml", kept.resolved());
   }
   if (fresh) forget_checkpoints(comm, job.directory);
 

@@ -93,6 +93,59 @@ int face_towards(Cells const& cells, std::size_t c, Index other, Vec3 const& twi
   return best;
 }
 
+/// The material of a body, or of the physical volume of a cell where the body has none.
+Index cell_material(BodyConfig const& body, Cells const& cells, std::size_t c,
+                    std::map<std::string, Index> const& material_of) {
+  if (!body.material.empty()) return material_of.at(body.material);
+  std::vector<Index> named;
+  std::string names;
+  if (!cells.region.empty())
+    for (std::string const& name : cells.region_names[static_cast<std::size_t>(cells.region[c])]) {
+      names += (names.empty() ? "\"" : ", \"") + name + "\"";
+      auto const found = material_of.find(name);
+      if (found != material_of.end()) named.push_back(found->second);
+    }
+  if (named.size() != 1)
+    throw Error(Failure::scene,
+                body.at.text() + ": solid.body \"" + body.name + "\" has no material, and cell " + std::to_string(c) +
+                    " at " + text(cells.centre[c]) + " is in " +
+                    (names.empty() ? "no physical group" : "the physical groups " + names) + ", of which " +
+                    (named.empty() ? "none is" : "several are") +
+                    " in solid.material. Give the body a material, or one to each physical group by its name.");
+  return named[0];
+}
+
+/// Faces of physical surfaces, by particle.
+void name_faces(Mesh& mesh, Draft const& draft, std::vector<GlobalId> const& number) {
+  for (std::size_t b = 0; b < draft.cells.size(); ++b) {
+    Cells const& cells = draft.cells[b];
+    for (auto const& [name, slots] : cells.face_groups)
+      for (std::size_t slot : slots) {
+        auto const next = std::upper_bound(cells.first.begin(), cells.first.end(), slot);
+        auto const c = static_cast<std::size_t>(next - cells.first.begin()) - 1;
+        mesh.face_groups[name].push_back({number[draft.offset[b] + c], static_cast<int>(slot - cells.first[c])});
+      }
+  }
+  for (auto& [name, faces] : mesh.face_groups) {
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  }
+}
+
+/// Link of two half links in series; the weights are by compliance, which of one material are those by distance.
+/// Source: theory/solid.md section 1.
+Link series_link(Mesh const& mesh, GlobalId p, int face, GlobalId q, int twin) {
+  FaceGeometry const& f = mesh.face(p, face);
+  Vec3 const place = mesh.particle(p).centre + f.centroid;
+  Vec3 const pole_i = mesh.particle(p).centre + mesh.shape(p).pole,
+             pole_j = mesh.particle(q).centre + mesh.shape(q).pole;
+  Real const length = dot(pole_j - pole_i, f.normal), near = dot(place - pole_i, f.normal);
+  Real const shear_i = mesh.material(p).shear(), shear_j = mesh.material(q).shear();
+  if (shear_i == shear_j) return {p, q, face, twin, length, near / length, 2 * shear_i * f.area / length};
+  Real const give_i = near / shear_i, give_j = (length - near) / shear_j;
+  return {p, q, face, twin, length, give_i / (give_i + give_j), 2 * f.area / (give_i + give_j)};
+}
+
 Link half_link(Mesh const& mesh, GlobalId p, int face, Real distance) {
   Real const area = mesh.face(p, face).area;
   return {p, Link::wall, face, -1, distance, 1, 2 * mesh.material(p).shear() * area / distance};
@@ -141,11 +194,7 @@ void connect(Mesh& mesh, Draft const& draft, SolidConfig const& config, std::vec
         Vec3 const place = mesh.particle(p).centre + s.faces[f].centroid;
         int const twin = face_towards(cells, o, static_cast<Index>(c), place);
         if (twin < 0) continue;  // a sliver of a face that rounding left on one side only
-        Vec3 const pole_i = mesh.particle(p).centre + s.pole, pole_j = mesh.particle(q).centre + mesh.shape(q).pole;
-        Vec3 const n = s.faces[f].normal;
-        Real const length = dot(pole_j - pole_i, n);
-        mesh.links.push_back({p, q, face, twin, length, dot(place - pole_i, n) / length,
-                              2 * mesh.material(p).shear() * s.faces[f].area / length});
+        mesh.links.push_back(series_link(mesh, p, face, q, twin));
         continue;
       }
       FreeFace free{p, face, dot(s.faces[f].centroid - s.pole, s.faces[f].normal), false};
@@ -172,13 +221,28 @@ bool is_side_of_slab(FaceGeometry const& face, int dimension) {
   return false;
 }
 
+Real face_distance(Mesh const& mesh, Link const& link, GlobalId p) {
+  FaceGeometry const& f = mesh.face(link.i, link.face_i);
+  Real const near = dot(f.centroid - mesh.shape(link.i).pole, f.normal);
+  return p == link.i ? near : link.rest_length - near;
+}
+
 Mat3 bending_tensor(Mesh const& mesh, Link const& link) {
   FaceGeometry const& f = mesh.face(link.i, link.face_i);
-  Material const& m = mesh.material(link.i);
   Real const polar = trace(f.second);
   Mat3 const nn = outer(f.normal, f.normal);
-  Mat3 const c =
-      (mesh.torsion_ratio * m.shear() * polar) * nn + m.young_modulus * (polar * (Mat3::identity() - nn) - f.second);
+  auto const tensor = [&](Real shear, Real young) {
+    return (mesh.torsion_ratio * shear * polar) * nn + young * (polar * (Mat3::identity() - nn) - f.second);
+  };
+  Material const& m = mesh.material(link.i);
+  Mat3 c = tensor(m.shear(), m.young_modulus);
+  if (link.j != Link::wall && mesh.particle(link.i).material != mesh.particle(link.j).material) {
+    // Two half links in series: a modulus is the harmonic mean of both, by distance from the face.
+    Material const& other = mesh.material(link.j);
+    Real const share = face_distance(mesh, link, link.i) / link.rest_length;
+    auto const mean = [&](Real a, Real b) { return 1 / (share / a + (1 - share) / b); };
+    c = tensor(mean(m.shear(), other.shear()), mean(m.young_modulus, other.young_modulus));
+  }
   return (2 / link.rest_length) * c;
 }
 
@@ -192,7 +256,7 @@ Mesh build_mesh(SolidConfig const& config, int dimension) {
     mesh.materials.push_back({name, m.density, m.young_modulus, m.poisson_ratio});
   }
   for (BodyConfig const& body : config.body)
-    require(material_of.contains(body.material), Failure::scene,
+    require(material_of.contains(body.material) || (body.mesh && body.material.empty()), Failure::scene,
             body.at.text() + ": solid.body \"" + body.name + "\": material \"" + body.material +
                 "\" is not one of solid.material. Add it there or correct the name.");
   Draft const draft = tessellate_all(config, dimension);
@@ -212,7 +276,7 @@ Mesh build_mesh(SolidConfig const& config, int dimension) {
     BodyConfig const& body = config.body[b];
     Particle& p = mesh.particles[static_cast<std::size_t>(number[a])];
     p.body = draft.body_of[a];
-    p.material = material_of.at(body.material);
+    p.material = cell_material(body, draft.cells[b], draft.cell_of[a], material_of);
     p.shape = first_shape[b] + draft.cells[b].shape[draft.cell_of[a]];
     p.centre = draft.centre[a];
     Shape const& s = mesh.shapes[static_cast<std::size_t>(p.shape)];
@@ -224,6 +288,7 @@ Mesh build_mesh(SolidConfig const& config, int dimension) {
       if (inside(p.centre, box.low, box.high, dimension)) p.freedom = Freedom::fixed, p.velocity = {};
   }
   connect(mesh, draft, config, number);
+  name_faces(mesh, draft, number);
 
   for (BodyConfig const& body : config.body) mesh.bodies.push_back({body.name, 0, 0, {}});
   for (Particle& p : mesh.particles) {

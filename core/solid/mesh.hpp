@@ -118,6 +118,9 @@ struct Mesh {
 /// (2/D) C of a link, the bending and twisting tensor, N m.  Source: theory/solid.md sections 4 and 8.
 Mat3 bending_tensor(Mesh const& mesh, Link const& link);
 
+/// Distance (m) of the face of a link from the pole of its particle `p`; D w of one material.
+Real face_distance(Mesh const& mesh, Link const& link, GlobalId p);
+
 /// Does a face lie in the plane of a 2D run (or across a 1D one)? Such faces are neither linked nor free.
 bool is_side_of_slab(FaceGeometry const& face, int dimension);
 

@@ -34,11 +34,13 @@ void PrescribedConfig::keys(Keys<PrescribedConfig>& k) {
 
 void BodyConfig::keys(Keys<BodyConfig>& k) {
   k("name", &BodyConfig::name, "", "name in messages and results");
-  k("material", &BodyConfig::material, "", "one of solid.material; may be left out for a mesh whose physical volumes bear the names of materials");
+  k("material", &BodyConfig::material, "",
+    "one of solid.material; may be left out for a mesh whose physical volumes bear the names of materials");
   k("shape", &BodyConfig::shape, "", "geometric shape")
       .one_of({"box", "plate", "prism", "cylinder", "tube", "sphere", "shell", "mesh"});
-  k("tessellation", &BodyConfig::tessellation, "", 
-    "how the shape is cut into convex particles; not given: cartesian, or for a mesh: the elements of a .msh, voronoi in "
+  k("tessellation", &BodyConfig::tessellation, "",
+    "how the shape is cut into convex particles; not given: cartesian, or for a mesh: the elements of a .msh, voronoi "
+    "in "
     "a convex surface, tetrahedra in another")
       .one_of({"cartesian", "polar", "voronoi", "elements", "tetrahedra"});
   k("mesh", &BodyConfig::mesh, "", "mesh: the file and how to take it");

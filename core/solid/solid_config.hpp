@@ -55,21 +55,21 @@ struct BodyConfig {
   std::string name = "body", material, shape = "box";  // material: may come from the groups of a mesh file
   std::optional<std::string> tessellation;             // cartesian; of a mesh file: elements, voronoi or tetrahedra
   std::optional<MeshFileConfig> mesh;                  // shape "mesh"
-  std::optional<Vec3> low, high;                   // box, prism (z only)
-  std::optional<Vec3> centre;                      // all others: centre of the shape
-  Vec3 axis{0, 0, 1};                              // cylinder, tube, plate (its normal)
-  std::optional<Real> radius;                      // cylinder, sphere
-  std::optional<Real> inner_radius, outer_radius;  // tube, shell
-  std::optional<Real> length;                      // cylinder, tube: along the axis; plate: first side
-  std::optional<Real> width, thickness;            // plate: second side, along the normal
-  Real phase = 0;                                  // polar: angle of the first corner, rad
-  std::vector<Real> corners;                       // prism: x0, y0, x1, y1, ... counter-clockwise, m
-  std::array<Index, 3> cells{1, 1, 1};             // cartesian: along the sides; polar: radial, around, axial
-  int particles = 100;                             // voronoi: how many
-  std::int64_t seed = 1;                           // voronoi: of the generators
-  int lloyd = 20;                                  // voronoi: sweeps towards centroidal cells
-  Vec3 velocity{}, spin{};                         // m/s; rad/s about the mass centre of the body
-  std::vector<HoldConfig> hold, clamp;             // particles with their centre, boundary faces lying, in a box
+  std::optional<Vec3> low, high;                       // box, prism (z only)
+  std::optional<Vec3> centre;                          // all others: centre of the shape
+  Vec3 axis{0, 0, 1};                                  // cylinder, tube, plate (its normal)
+  std::optional<Real> radius;                          // cylinder, sphere
+  std::optional<Real> inner_radius, outer_radius;      // tube, shell
+  std::optional<Real> length;                          // cylinder, tube: along the axis; plate: first side
+  std::optional<Real> width, thickness;                // plate: second side, along the normal
+  Real phase = 0;                                      // polar: angle of the first corner, rad
+  std::vector<Real> corners;                           // prism: x0, y0, x1, y1, ... counter-clockwise, m
+  std::array<Index, 3> cells{1, 1, 1};                 // cartesian: along the sides; polar: radial, around, axial
+  int particles = 100;                                 // voronoi: how many
+  std::int64_t seed = 1;                               // voronoi: of the generators
+  int lloyd = 20;                                      // voronoi: sweeps towards centroidal cells
+  Vec3 velocity{}, spin{};                             // m/s; rad/s about the mass centre of the body
+  std::vector<HoldConfig> hold, clamp;                 // particles with their centre, boundary faces lying, in a box
   std::vector<PrescribedConfig> prescribed;
   Location at;
   static void keys(Keys<BodyConfig>& k);

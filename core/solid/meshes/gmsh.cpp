@@ -19,12 +19,14 @@ int nodes_of_type(std::int64_t type) {
 /// What Gmsh calls the types that are not read.
 std::string type_name(std::int64_t type) {
   static std::map<std::int64_t, char const*> const names{
-      {8, "3-node line"},        {9, "6-node triangle"},     {10, "9-node quadrangle"},  {11, "10-node tetrahedron"},
-      {12, "27-node hexahedron"}, {13, "18-node prism"},      {14, "14-node pyramid"},    {16, "8-node quadrangle"},
-      {17, "20-node hexahedron"}, {18, "15-node prism"},      {19, "13-node pyramid"},    {20, "9-node triangle"},
-      {21, "10-node triangle"},   {22, "12-node triangle"},   {23, "15-node triangle"},   {24, "15-node triangle"},
-      {25, "21-node triangle"},   {26, "4-node line"},        {27, "5-node line"},        {28, "6-node line"},
-      {29, "20-node tetrahedron"}, {30, "35-node tetrahedron"}, {31, "56-node tetrahedron"}, {92, "64-node hexahedron"},
+      {8, "3-node line"},          {9, "6-node triangle"},      {10, "9-node quadrangle"},
+      {11, "10-node tetrahedron"}, {12, "27-node hexahedron"},  {13, "18-node prism"},
+      {14, "14-node pyramid"},     {16, "8-node quadrangle"},   {17, "20-node hexahedron"},
+      {18, "15-node prism"},       {19, "13-node pyramid"},     {20, "9-node triangle"},
+      {21, "10-node triangle"},    {22, "12-node triangle"},    {23, "15-node triangle"},
+      {24, "15-node triangle"},    {25, "21-node triangle"},    {26, "4-node line"},
+      {27, "5-node line"},         {28, "6-node line"},         {29, "20-node tetrahedron"},
+      {30, "35-node tetrahedron"}, {31, "56-node tetrahedron"}, {92, "64-node hexahedron"},
       {93, "125-node hexahedron"}};
   auto const found = names.find(type);
   return found == names.end() ? "type " + std::to_string(type) : found->second;

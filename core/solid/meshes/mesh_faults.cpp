@@ -118,9 +118,10 @@ void check_sides(ElementMesh const& mesh, MeshElement const& a, MeshElement cons
     Polyhedron const p = polyhedron_of(mesh, e);
     auto const& loops = faces_of(e.kind);
     for (std::size_t f = 0; f < loops.size(); ++f) {
-      bool const here = loops[f].size() == nodes.size() && std::all_of(loops[f].begin(), loops[f].end(), [&](int k) {
-        return std::find(nodes.begin(), nodes.end(), e.node[static_cast<std::size_t>(k)]) != nodes.end();
-      });
+      bool const here =
+          loops[f].size() == nodes.size() && std::all_of(loops[f].begin(), loops[f].end(), [&](int k) {
+            return std::find(nodes.begin(), nodes.end(), e.node[static_cast<std::size_t>(k)]) != nodes.end();
+          });
       if (here) return face_geometry(p, f).normal;
     }
     return Vec3{};

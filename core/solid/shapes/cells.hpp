@@ -18,10 +18,10 @@ struct Cells {
   std::vector<std::size_t> first{0};
   std::vector<Index> neighbour;
   // Of mesh files: names of physical groups.
-  std::vector<std::vector<std::string>> region_names;            ///< sets of names of physical volumes
-  std::vector<Index> region;                                     ///< of each cell, into region_names; may be empty
-  std::map<std::string, std::vector<std::size_t>> face_groups;   ///< name -> places in `neighbour`
-  bool checked = false;                                          ///< convex and closed to the precision of its file
+  std::vector<std::vector<std::string>> region_names;           ///< sets of names of physical volumes
+  std::vector<Index> region;                                    ///< of each cell, into region_names; may be empty
+  std::map<std::string, std::vector<std::size_t>> face_groups;  ///< name -> places in `neighbour`
+  bool checked = false;                                         ///< convex and closed to the precision of its file
 
   std::size_t count() const { return centre.size(); }
   /// Adds a cell with a shape of its own; `neighbours` may be empty (none known yet).

@@ -86,7 +86,8 @@ Cells tessellate(BodyConfig const& body, int dimension) {
   if (body.shape == "mesh") return cells_from_file(body, dimension);
   std::string const tessellation = body.tessellation.value_or("cartesian");
   if (tessellation == "elements" || tessellation == "tetrahedra")
-    refuse(body, "tessellation \"" + tessellation + "\" belongs to shape \"mesh\". Take \"cartesian\", \"polar\" or \"voronoi\".");
+    refuse(body, "tessellation \"" + tessellation +
+                     "\" belongs to shape \"mesh\". Take \"cartesian\", \"polar\" or \"voronoi\".");
   if (round && tessellation == "cartesian")
     refuse(body, "a " + body.shape + " cannot be cut into bricks. Take tessellation = \"polar\" or \"voronoi\".");
   if (round) return tessellate_round(body, dimension);
