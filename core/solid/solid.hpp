@@ -141,6 +141,8 @@ class Solid {
   Real stable_step() const { return stable_limit().dt; }
   /// The bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
   StableStep link_limit() const;
+  /// The bound 2/omega_I of each owned particle, s; 1e300 where it has no link or does not move freely.
+  std::span<double const> step_limits() const;
 
   // The parts of the energy, J: of a particle with its rotation, of its volumetric strain (owned and first layer, at
   // the last compute_forces), and of a link.

@@ -118,8 +118,13 @@ std::vector<double> Solid::link_limits() const {
   return limits;
 }
 
-StableStep Solid::link_limit() const {
+std::span<double const> Solid::step_limits() const {
   if (link_limits_.empty()) link_limits_ = link_limits();
+  return link_limits_;
+}
+
+StableStep Solid::link_limit() const {
+  step_limits();
   StableStep best;
   for (Index l = 0; l < owned_; ++l)
     if (link_limits_[at(l)] < best.dt) best = {link_limits_[at(l)], id(l), false};
