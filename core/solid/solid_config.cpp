@@ -55,7 +55,8 @@ void BodyConfig::keys(Keys<BodyConfig>& k) {
   k("width", &BodyConfig::width, "m", "plate: second side").above(0);
   k("thickness", &BodyConfig::thickness, "m", "plate: thickness along its normal").above(0);
   k("phase", &BodyConfig::phase, "rad", "polar: angle of the first corner about the axis");
-  k("corners", &BodyConfig::corners, "m", "prism: x, y of its corners, counter-clockwise, one convex particle");
+  k("corners", &BodyConfig::corners, "m",
+    "prism: x, y of its corners, counter-clockwise; cartesian: one convex particle");
   k("cells", &BodyConfig::cells, "", "cartesian: particles along each side; polar: radial, around, axial").at_least(1);
   k("particles", &BodyConfig::particles, "", "voronoi: number of particles").at_least(1);
   k("seed", &BodyConfig::seed, "", "voronoi: seed of the generators");

@@ -28,6 +28,25 @@ inline BrickDomain plate_box(Vec3 const& centre, Vec3 const& normal, Real length
   return {centre, frame_about(normal), {0.5 * length, 0.5 * width, 0.5 * thickness}};
 }
 
+/// Convex body between planes.
+class PlaneDomain : public Domain {
+ public:
+  /// `corners`: points whose box holds the body.
+  PlaneDomain(std::vector<Wall> walls, std::span<Vec3 const> corners);
+  Vec3 low() const override { return low_; }
+  Vec3 high() const override { return high_; }
+  bool contains(Vec3 const& p) const override;
+  std::vector<Wall> walls() const override { return walls_; }
+  std::vector<Vec3> images(Vec3 const&) const override { return {}; }
+
+ private:
+  std::vector<Wall> walls_;
+  Vec3 low_, high_;
+};
+
+/// The body of a convex polyhedron.
+PlaneDomain inside_of(Polyhedron const& convex);
+
 /// Between two coaxial cylinders (inner radius 0: full cylinder), cut by two planes across the axis.
 class TubeDomain : public Domain {
  public:

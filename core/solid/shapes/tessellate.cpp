@@ -101,7 +101,11 @@ Cells tessellate(BodyConfig const& body, int dimension) {
       need(body, body.high, "high");
       low = *body.low, high = *body.high;
     }
-    return prism(body, low.z, high.z);
+    Cells one = prism(body, low.z, high.z);
+    if (body.tessellation != "voronoi") return one;
+    Polyhedron const whole = translated(one.shapes[0].polyhedron, one.centre[0]);
+    if (auto const f = fault(whole)) refuse(body, "Voronoi cells need a convex prism; it is " + f->what + ".");
+    return voronoi(inside_of(whole), body.particles, body.seed, body.lloyd, dimension);
   }
   if (body.shape == "plate") {
     if (dimension < 3) refuse(body, "a plate needs three dimensions. In 2D take a box.");
