@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/solid/meshes/closed_surface.hpp"
 #include "core/solid/meshes/elements.hpp"
 #include "core/solid/meshes/gmsh.hpp"
+#include "core/solid/meshes/tetrahedra.hpp"
 #include "parallel/error.hpp"
 
 namespace brisance::solid {
@@ -16,6 +18,23 @@ std::string extension(std::string const& path) {
   return e;
 }
 
+/// Voronoi cells in a convex surface, tetrahedra in another.
+Cells fill(TriangleSurface const& surface, BodyConfig const& body) {
+  auto const convex = convex_body(surface);
+  std::string const how = body.tessellation.value_or(convex ? "voronoi" : "tetrahedra");
+  if (how == "voronoi") {
+    if (!convex)
+      throw Error(Failure::scene, surface.path +
+                                      ": the surface is not convex: Voronoi cells would reach out of it. "
+                                      "Take tessellation = \"tetrahedra\", or leave it out.");
+    return voronoi(*convex, body.particles, body.seed, body.lloyd, 3);
+  }
+  if (how != "tetrahedra")
+    throw Error(Failure::scene,
+                surface.path + ": a surface is filled with \"voronoi\" or \"tetrahedra\", not \"" + how + "\".");
+  return tetrahedra_in(surface, body.particles);
+}
+
 Cells read_cells(BodyConfig const& body, int dimension) {
   MeshFileConfig const& file = *body.mesh;
   std::string const path = file.path(), kind = extension(path), how = body.tessellation.value_or("elements");
@@ -25,7 +44,13 @@ Cells read_cells(BodyConfig const& body, int dimension) {
                                       how + "\", or leave it out.");
     return cells_of(read_gmsh(path), file, dimension);
   }
-  throw Error(Failure::scene, path + ": files \"" + kind + "\" are not read; .msh, .stl and .off are.");
+  if (kind != ".stl" && kind != ".off")
+    throw Error(Failure::scene, path + ": files \"" + kind + "\" are not read; .msh, .stl and .off are.");
+  if (dimension < 3) throw Error(Failure::scene, path + ": a surface bounds a body in three dimensions only.");
+  TriangleSurface surface = kind == ".stl" ? read_stl(path) : read_off(path);
+  for (Vec3& x : surface.vertices) x *= file.unit;
+  check_closed(surface);
+  return fill(surface, body);
 }
 
 }  // namespace

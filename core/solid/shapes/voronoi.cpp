@@ -229,20 +229,22 @@ std::vector<Cut> diagram(Domain const& domain, std::vector<Vec3> const& generato
   for (std::size_t g = 0; g < generators.size(); ++g) {
     Vec3 const& x = generators[g];
     Cut cell(low, high);
-    // The nearest wall first: most of many lie out of reach of what it leaves.
+    // The nearest walls bound the search for neighbours; of a finely facetted surface, most lie out of reach of what
+    // the neighbours leave.
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return std::pair(depth(walls[a], x), a) < std::pair(depth(walls[b], x), b);
     });
-    for (std::size_t w : order) {
-      if (depth(walls[w], x) > cell.reach(x)) break;
-      cell.clip(walls[w].point, walls[w].normal, -1, slack);
-    }
+    std::size_t const first_walls = std::min<std::size_t>(6, order.size());
+    auto clip_by = [&](std::size_t w) { cell.clip(walls[w].point, walls[w].normal, -1, slack); };
+    for (std::size_t k = 0; k < first_walls; ++k) clip_by(order[k]);
     for (int r = 0; r <= farthest && (r - 1) * spacing < 2 * cell.reach(x); ++r)
       buckets.ring(x, r, [&](std::size_t p) {
         if (p == g || norm2(points[p] - x) > 4 * square(cell.reach(x))) return;
         Index const behind = p < generators.size() ? static_cast<Index>(p) : -1;
         cell.clip(0.5 * (points[p] + x), normalized(points[p] - x), behind, slack);
       });
+    for (std::size_t k = first_walls; k < order.size() && depth(walls[order[k]], x) < cell.reach(x); ++k)
+      clip_by(order[k]);
     cells.push_back(std::move(cell));
   }
   return cells;
