@@ -99,6 +99,7 @@ std::string human_time(Real seconds) {
 nlohmann::ordered_json mesh_report(solid::MeshQuality const& q, solid::Mesh const& mesh) {
   nlohmann::ordered_json j = {{"body", mesh.bodies[static_cast<std::size_t>(q.body)].name},
                               {"parts", q.parts},
+                              {"volume_deviation", q.volume},
                               {"worst_angle_degrees", q.angle.value},
                               {"face_offset", q.offset},
                               {"worst_aspect_ratio", q.aspect.value},

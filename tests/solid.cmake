@@ -4,7 +4,10 @@ brisance_test(solid_unit
           unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
           unit/core/solid/fracture/link_laws_test.cpp unit/core/solid/fracture/fragments_test.cpp
   LINKS brisance::solid LABELS unit)
-brisance_test(solid_meshes SOURCES unit/core/solid/meshes/gmsh_test.cpp LINKS brisance::solid LABELS unit)
+brisance_test(solid_meshes
+  SOURCES unit/core/solid/meshes/gmsh_test.cpp unit/core/solid/meshes/surface_test.cpp
+          unit/core/solid/meshes/quality_test.cpp
+  LINKS brisance::solid LABELS unit)
 brisance_test(solid_statics SOURCES verification/solid/statics_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_rods SOURCES verification/solid/rods_test.cpp LINKS brisance::solid Eigen3::Eigen LABELS verification)
 brisance_test(solid_rotation SOURCES verification/solid/rotation_test.cpp LINKS brisance::solid Eigen3::Eigen

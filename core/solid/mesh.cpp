@@ -290,7 +290,8 @@ Mesh build_mesh(SolidConfig const& config, int dimension) {
   connect(mesh, draft, config, number);
   name_faces(mesh, draft, number);
 
-  for (BodyConfig const& body : config.body) mesh.bodies.push_back({body.name, 0, 0, {}});
+  for (std::size_t b = 0; b < config.body.size(); ++b)
+    mesh.bodies.push_back({config.body[b].name, 0, 0, {}, draft.cells[b].whole_volume});
   for (Particle& p : mesh.particles) {
     Body& body = mesh.bodies[static_cast<std::size_t>(p.body)];
     ++body.particles;

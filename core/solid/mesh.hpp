@@ -75,6 +75,7 @@ struct Body {
   GlobalId particles = 0;
   Real mass = 0;
   Vec3 centre{};
+  Real whole_volume = 0;  ///< of the shape that the particles fill, m3; 0: not known
 };
 
 /// The whole solid, numbered along a space-filling curve; links sorted by (i, j), walls last; free faces by particle.

@@ -3,12 +3,14 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
 #include <map>
 
 #include "core/solid/meshes/element_mesh.hpp"
+#include "core/solid/meshes/refill.hpp"
 
 namespace brisance::solid {
 namespace {
@@ -114,6 +116,67 @@ void check_closed(TriangleSurface& s) {
   if (!(enclosed_volume(s) > 0)) mesh_error(s.path, 0, "the surface encloses no volume");
 }
 
+struct SurfaceDomain::Inside {
+  SurfaceMesh mesh;
+  CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel> side;
+  explicit Inside(TriangleSurface const& s) : mesh(to_cgal(s)), side(mesh) {}
+};
+
+SurfaceDomain::SurfaceDomain(TriangleSurface const& surface, Real reach)
+    : surface_(surface),
+      reach_(reach),
+      low_(surface.vertices[0]),
+      high_(low_),
+      at_(surface.vertices.size()),
+      inside_(std::make_unique<Inside>(surface)) {
+  for (Vec3 const& x : surface.vertices)
+    for (int d = 0; d < 3; ++d) low_[d] = min(low_[d], x[d]), high_[d] = max(high_[d], x[d]);
+  for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+    normal_.push_back(normalized(spread(surface, f)));
+    for (Index v : surface.facets[f]) at_[static_cast<std::size_t>(v)].push_back(f);
+  }
+}
+
+SurfaceDomain::~SurfaceDomain() = default;
+Real SurfaceDomain::volume() const { return enclosed_volume(surface_); }
+
+bool SurfaceDomain::contains(Vec3 const& p) const { return inside_->side({p.x, p.y, p.z}) == CGAL::ON_BOUNDED_SIDE; }
+
+std::vector<Vec3> SurfaceDomain::images(Vec3 const& p) const {
+  std::vector<Vec3> feet;
+  for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
+    // Only from inside, and only within reach of the plane.
+    Real const depth = dot(vertex(surface_, surface_.facets[f][0]) - p, normal_[f]);
+    if (depth > reach_ || depth < -reach_) continue;
+    Vec3 const foot = nearest_point(surface_, f, p);
+    Real const distance = norm(foot - p), slack = 1e-9 * reach_;
+    if (distance > reach_ || distance <= slack) continue;
+    // A foot on the rim of the facet counts when no facet around it comes nearer.
+    Vec3 normal{};
+    bool least = true;
+    for (Index v : surface_.facets[f])
+      for (std::size_t g : at_[static_cast<std::size_t>(v)]) {
+        if (norm(nearest_point(surface_, g, foot) - foot) > slack) continue;
+        normal += normal_[g];
+        least = least && norm(nearest_point(surface_, g, p) - p) >= distance - slack;
+      }
+    if (!least || dot(normal, foot - p) <= 0) continue;
+    bool const known =
+        std::any_of(feet.begin(), feet.end(), [&](Vec3 const& other) { return norm(other - foot) <= 1e-6 * reach_; });
+    if (!known) feet.push_back(foot);
+  }
+  std::vector<Vec3> images;
+  for (Vec3 const& foot : feet) images.push_back(p + 2.0 * (foot - p));
+  return images;
+}
+
+Real SurfaceDomain::outside(Vec3 const& p) const {
+  if (contains(p)) return 0;
+  Real least = 1e300;
+  for (std::size_t f = 0; f < surface_.facets.size(); ++f) least = min(least, norm(nearest_point(surface_, f, p) - p));
+  return least;
+}
+
 std::optional<PlaneDomain> convex_body(TriangleSurface const& s) {
   // Coordinates of STL are rounded to 6e-8 of their size.
   Real const slack = 1e-6 * size_of(s);
@@ -137,7 +200,7 @@ std::optional<PlaneDomain> convex_body(TriangleSurface const& s) {
     }
     walls.push_back(wall);
   }
-  return PlaneDomain(std::move(walls), s.vertices);
+  return PlaneDomain(std::move(walls), s.vertices, enclosed_volume(s));
 }
 
 }  // namespace brisance::solid

@@ -141,6 +141,7 @@ std::vector<MeshQuality> measure_quality(Mesh const& mesh, GlobalId patch) {
     Real const spacing = std::pow(volume[b] / particles, 1.0 / mesh.dimension);
     q.offset = count[b] > 0 ? std::sqrt(offsets[b] / count[b]) / spacing : 0;
     q.single_layer = layers[b] / particles;
+    if (mesh.bodies[b].whole_volume > 0) q.volume = volume[b] / mesh.bodies[b].whole_volume - 1;
     q.parts = count_parts(mesh, q.body);
     q.stairs = mesh.dimension > 1 ? count_stairs(mesh, q.body) : 0;
     if (mesh.dimension == 1 || count[b] == 0 || (q.offset < 1e-8 && q.angle.value < 1e-5)) continue;
@@ -157,6 +158,7 @@ std::string describe(MeshQuality const& q, Mesh const& mesh) {
       "{} particles; worst angle of a face to the line of poles {:.2g} degrees; face offset {:.2g} h "
       "(rms); worst aspect ratio {:.3g}",
       mesh.bodies[at(q.body)].particles, q.angle.value, q.offset, q.aspect.value);
+  if (std::abs(q.volume) > 1e-6) text += fmt::format("; volume {:+.2f} % of the shape", 100 * q.volume);
   if (!q.moduli)
     return text + (q.patch == 0 && q.offset < 1e-8 && q.angle.value < 1e-5 ? "; homogeneous strains are exact" : "");
   text += fmt::format("; a patch of {} of them at nu = {:.3g}:", q.patch, q.poisson_ratio);
@@ -176,6 +178,10 @@ std::vector<std::string> warnings(MeshQuality const& q, Mesh const& mesh) {
         fmt::format("it consists of {} parts that no link joins: check the faces between them, or give "
                     "them as bodies of their own",
                     q.parts));
+  if (std::abs(q.volume) > 0.02)
+    list.push_back(
+        fmt::format("its particles have {:+.1f} % of the volume of the shape: use more of them, or another density",
+                    100 * q.volume));
   if (q.angle.value > 10)
     list.push_back(
         fmt::format("a face of {} is {:.0f} degrees off the line of poles: such meshes are a few per cent off, "

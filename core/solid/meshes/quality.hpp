@@ -17,6 +17,7 @@ struct Worst {
 struct MeshQuality {
   Index body = 0;
   GlobalId parts = 1;      ///< pieces without a link between them
+  Real volume = 0;         ///< of the particles over that of the shape they fill, minus 1; 0: not known
   Worst angle;             ///< between a face normal and the line of poles, degrees
   Real offset = 0;         ///< rms of the face offset tau over the mean spacing h (theory/solid.md section 9)
   Worst aspect;            ///< longest over shortest axis of a particle

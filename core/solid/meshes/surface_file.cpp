@@ -109,7 +109,8 @@ std::vector<Vec3> binary_corners(std::string const& path, std::string const& tex
   return corners;
 }
 
-/// Corners at one place become one vertex; facets that shrink to an edge vanish (their neighbours then meet).
+}  // namespace
+
 void weld(std::vector<Vec3> const& corners, TriangleSurface& surface) {
   Vec3 low = corners[0], high = low;
   for (Vec3 const& x : corners)
@@ -138,8 +139,6 @@ void weld(std::vector<Vec3> const& corners, TriangleSurface& surface) {
     surface.number.push_back(static_cast<std::int64_t>(f) + 1);
   }
 }
-
-}  // namespace
 
 TriangleSurface read_stl(std::string const& path) {
   std::string const text = read_text(path);

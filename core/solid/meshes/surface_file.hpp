@@ -14,7 +14,12 @@ struct TriangleSurface {
   std::vector<Vec3> vertices;  ///< m, once scaled
   std::vector<std::array<Index, 3>> facets;
   std::vector<std::int64_t> number;  ///< of the facet in the file, from 1 (polygons of OFF are cut into triangles)
+  std::vector<std::vector<std::string>> groups;  ///< names of the physical surfaces of a facet; may be empty
 };
+
+/// Adds the facets of three corners each; corners that agree to 1e-7 of the size of all are one vertex, facets that
+/// shrink to an edge vanish (their neighbours then meet). Facet f gets number f + 1.
+void weld(std::vector<Vec3> const& corners, TriangleSurface& surface);
 
 /// Vertices of STL that agree to 1e-7 of the size of the surface are one.
 /// Errors: Failure::scene "path:line: ...": unreadable, cut off, no facets, a facet with an unknown vertex.

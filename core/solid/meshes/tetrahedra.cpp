@@ -84,7 +84,9 @@ Cells tetrahedra_in(TriangleSurface const& surface, int particles) {
     }
     mesh.elements.push_back(e);
   }
-  return cells_of(std::move(mesh), {}, 3);
+  Cells cells = cells_of(std::move(mesh), {}, 3);
+  cells.whole_volume = enclosed_volume(surface);
+  return cells;
 }
 
 }  // namespace brisance::solid

@@ -36,8 +36,8 @@ Vec3 BrickDomain::reach() const {
   return r;
 }
 
-PlaneDomain::PlaneDomain(std::vector<Wall> walls, std::span<Vec3 const> corners)
-    : walls_(std::move(walls)), low_(corners[0]), high_(corners[0]) {
+PlaneDomain::PlaneDomain(std::vector<Wall> walls, std::span<Vec3 const> corners, Real volume)
+    : walls_(std::move(walls)), low_(corners[0]), high_(corners[0]), volume_(volume) {
   for (Vec3 const& x : corners)
     for (int d = 0; d < 3; ++d) low_[d] = min(low_[d], x[d]), high_[d] = max(high_[d], x[d]);
 }
@@ -54,7 +54,7 @@ PlaneDomain inside_of(Polyhedron const& convex) {
     FaceGeometry const g = face_geometry(convex, f);
     walls.push_back({g.centroid, g.normal});
   }
-  return {std::move(walls), convex.vertices};
+  return {std::move(walls), convex.vertices, moments(convex).volume};
 }
 
 Vec3 TubeDomain::low() const {

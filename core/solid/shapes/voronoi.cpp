@@ -266,6 +266,7 @@ Cells voronoi(Domain const& domain, int particles, std::int64_t seed, int lloyd,
     cuts = diagram(domain, generators, spacing);
   }
   Cells cells;
+  cells.whole_volume = domain.volume();
   for (std::size_t g = 0; g < generators.size(); ++g) cells.add(cuts[g].shape, cuts[g].tag, generators[g]);
   return cells;
 }
