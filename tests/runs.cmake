@@ -28,6 +28,8 @@ brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/v
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
 brisance_same_digest(bursting-wheel ${scenes}/bursting-wheel.toml 80 --set solid.body.0.particles=300)
 brisance_same_digest(break-up ${PROJECT_SOURCE_DIR}/tests/support/scenes/break-up.toml 44)
+brisance_same_digest(two-bars ${scenes}/two-bars.toml 40)
+brisance_same_digest(filled-surfaces ${PROJECT_SOURCE_DIR}/tests/support/scenes/filled-surfaces.toml 40)
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
@@ -65,6 +67,12 @@ brisance_expect(check_explosion-cylinder CODE 0 LABELS unit MESSAGE "coupling.cu
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --ranks 4)
 brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity +off: .*output.gauges +on.*416 particles.*charges +fluid.charge.0.: 1 kg of gas with 4.184 MJ above"
                 COMMAND ${program} check ${scenes}/explosion-box-3d.toml --ranks 2)
+brisance_expect(check_two-bars CODE 0 LABELS unit
+                MESSAGE "bar: 976 particles; worst angle .* a patch of 600 of them at nu = 0.33: E .[0-9.]+ %.*warning: a face of particle [0-9]+ at .*allows the shortest step"
+                COMMAND ${program} check ${scenes}/two-bars.toml)
+brisance_expect(mesh_group_missing CODE 2 LABELS unit ABSENT ${runs}/no-group
+                MESSAGE "two-bars.toml:[0-9]+:[0-9]+: solid.body .bar.: .*meshes/two-bars.msh: no element is in a physical volume .copper.. Physical volumes: aluminium, steel"
+                COMMAND ${program} run ${scenes}/two-bars.toml --out ${runs}/no-group --set solid.body.0.mesh.group=copper)
 
 brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)

@@ -22,7 +22,8 @@ namespace processing = CGAL::Polygon_mesh_processing;
 Vec3 const& vertex(TriangleSurface const& s, Index v) { return s.vertices[static_cast<std::size_t>(v)]; }
 
 std::string facet_text(TriangleSurface const& s, std::size_t f) {
-  return (s.path.ends_with("off") || s.path.ends_with("OFF") ? "face " : "facet ") + std::to_string(s.number[f]);
+  return (s.path.ends_with("off") || s.path.ends_with("OFF") ? "face " : "facet ") +
+         std::to_string(s.number.empty() ? static_cast<std::int64_t>(f) + 1 : s.number[f]);
 }
 
 Vec3 middle(TriangleSurface const& s, std::size_t f) {
@@ -50,6 +51,7 @@ void check_edges(TriangleSurface const& s) {
     for (std::size_t k = 0; k < 3; ++k) edges[{s.facets[f][k], s.facets[f][(k + 1) % 3]}].push_back(f);
   for (auto const& [edge, facets] : edges) {
     auto const back = edges.find({edge.second, edge.first});
+    if (facets.size() == 1 && back != edges.end() && back->second.size() == 1) continue;
     std::string const from_to = "the edge from " + place_text(vertex(s, edge.first)) + " to " +
                                 place_text(vertex(s, edge.second)) + " of " + facet_text(s, facets[0]);
     if (facets.size() == 2 && back == edges.end())
@@ -113,6 +115,8 @@ void check_closed(TriangleSurface& s) {
         s.facets[f][k++] = static_cast<Index>(static_cast<SurfaceMesh::size_type>(v));
     }
   }
+  if (enclosed_volume(s) < 0)
+    for (auto& facet : s.facets) std::swap(facet[0], facet[1]);
   if (!(enclosed_volume(s) > 0)) mesh_error(s.path, 0, "the surface encloses no volume");
 }
 

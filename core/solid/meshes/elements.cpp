@@ -191,7 +191,7 @@ void name_faces(ElementMesh const& mesh, Selection const& kept, Faces const& fac
 }  // namespace
 
 Cells cells_of(ElementMesh mesh, MeshFileConfig const& config, int run_dimension) {
-  for (Vec3& x : mesh.nodes) x *= config.unit;
+  for (Vec3& x : mesh.nodes) x = config.unit * x + config.shift;
   require_plane(mesh, run_dimension);
   if (config.coincident_nodes == "merge") merge_nodes(mesh);
   Selection kept = select(mesh, config.group, run_dimension);

@@ -81,7 +81,7 @@ Cells read_cells(BodyConfig const& body, int dimension) {
     throw Error(Failure::scene, path + ": files \"" + kind + "\" are not read; .msh, .stl and .off are.");
   if (dimension < 3) throw Error(Failure::scene, path + ": a surface bounds a body in three dimensions only.");
   TriangleSurface surface = kind == ".stl" ? read_stl(path) : read_off(path);
-  for (Vec3& x : surface.vertices) x *= file.unit;
+  for (Vec3& x : surface.vertices) x = file.unit * x + file.shift;
   check_closed(surface);
   return fill(surface, body);
 }

@@ -18,6 +18,7 @@ void MeshFileConfig::keys(Keys<MeshFileConfig>& k) {
       .required();
   k("group", &MeshFileConfig::group, "", ".msh: the physical volume (3D) or surface (2D) that is this body; else all");
   k("unit", &MeshFileConfig::unit, "m", "length of 1 in the file").above(0);
+  k("shift", &MeshFileConfig::shift, "m", "where the origin of the file lies");
   k("warped", &MeshFileConfig::warped, "",
     "elements with faces that are not plane: refuse them, or split them into pyramids and tetrahedra")
       .one_of({"refuse", "split"});

@@ -13,7 +13,7 @@ struct TriangleSurface {
   std::string path;
   std::vector<Vec3> vertices;  ///< m, once scaled
   std::vector<std::array<Index, 3>> facets;
-  std::vector<std::int64_t> number;  ///< of the facet in the file, from 1 (polygons of OFF are cut into triangles)
+  std::vector<std::int64_t> number;              ///< of the facet in the file (OFF: polygon), from 1; empty: f + 1
   std::vector<std::vector<std::string>> groups;  ///< names of the physical surfaces of a facet; may be empty
 };
 

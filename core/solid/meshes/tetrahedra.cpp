@@ -7,10 +7,12 @@
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Polyhedral_mesh_domain_with_features_3.h>
 #include <CGAL/Polyhedron_incremental_builder_3.h>
+#include <CGAL/Random.h>
 #include <CGAL/make_mesh_3.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
+#include <tuple>
 
 #include "core/solid/meshes/closed_surface.hpp"
 #include "core/solid/meshes/elements.hpp"
@@ -42,6 +44,38 @@ class Builder : public CGAL::Modifier_base<Polyhedral::HalfedgeDS> {
   TriangleSurface const& surface_;
 };
 
+/// The tetrahedra in an order that depends on their places only: nodes and elements by coordinates.
+ElementMesh numbered(Complex const& complex, std::string const& path) {
+  ElementMesh mesh;
+  mesh.path = path;
+  auto const less = [](Vec3 const& a, Vec3 const& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+  auto const place = [](Complex::Vertex_handle v) {
+    auto const p = v->point().point();
+    return Vec3{p.x(), p.y(), p.z()};
+  };
+  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell)
+    for (int k = 0; k < 4; ++k) mesh.nodes.push_back(place(cell->vertex(k)));
+  std::sort(mesh.nodes.begin(), mesh.nodes.end(), less);
+  mesh.nodes.erase(std::unique(mesh.nodes.begin(), mesh.nodes.end()), mesh.nodes.end());
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) mesh.node_tag.push_back(static_cast<std::int64_t>(n) + 1);
+  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
+    MeshElement e;
+    for (int k = 0; k < 4; ++k) {
+      auto const at = std::lower_bound(mesh.nodes.begin(), mesh.nodes.end(), place(cell->vertex(k)), less);
+      e.node[static_cast<std::size_t>(k)] = static_cast<Index>(at - mesh.nodes.begin());
+    }
+    // Ascending, then the last two exchanged where that turned the tetrahedron inside out.
+    std::sort(e.node.begin(), e.node.begin() + 4);
+    auto const x = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(e.node[k])]; };
+    if (dot(cross(x(1) - x(0), x(2) - x(0)), x(3) - x(0)) < 0) std::swap(e.node[2], e.node[3]);
+    mesh.elements.push_back(e);
+  }
+  std::sort(mesh.elements.begin(), mesh.elements.end(),
+            [](MeshElement const& a, MeshElement const& b) { return a.node < b.node; });
+  for (std::size_t k = 0; k < mesh.elements.size(); ++k) mesh.elements[k].tag = static_cast<std::int64_t>(k) + 1;
+  return mesh;
+}
+
 }  // namespace
 
 Cells tetrahedra_in(TriangleSurface const& surface, int particles) {
@@ -61,30 +95,14 @@ Cells tetrahedra_in(TriangleSurface const& surface, int particles) {
   Criteria const criteria(parameter::edge_size = bound, parameter::facet_angle = 25, parameter::facet_size = bound,
                           parameter::facet_distance = 0.05 * edge, parameter::cell_radius_edge_ratio = 2,
                           parameter::cell_size = bound);
+  CGAL::get_default_random() = CGAL::Random(0);  // of the first points on the surface
   Complex const complex = CGAL::make_mesh_3<Complex>(domain, criteria, parameter::perturb(), parameter::exude());
   if (complex.number_of_cells_in_complex() == 0)
     mesh_error(surface.path, 0,
                "no tetrahedra of this size fit into the surface: ask for more than " + std::to_string(particles) +
                    " particles.");
 
-  ElementMesh mesh;
-  mesh.path = surface.path;
-  std::map<Complex::Vertex_handle, Index> node;
-  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
-    MeshElement e;
-    e.tag = static_cast<std::int64_t>(mesh.elements.size()) + 1;
-    for (int k = 0; k < 4; ++k) {
-      auto const [it, fresh] = node.try_emplace(cell->vertex(k), static_cast<Index>(mesh.nodes.size()));
-      if (fresh) {
-        auto const p = cell->vertex(k)->point().point();
-        mesh.nodes.push_back({p.x(), p.y(), p.z()});
-        mesh.node_tag.push_back(static_cast<std::int64_t>(mesh.nodes.size()));
-      }
-      e.node[static_cast<std::size_t>(k)] = it->second;
-    }
-    mesh.elements.push_back(e);
-  }
-  Cells cells = cells_of(std::move(mesh), {}, 3);
+  Cells cells = cells_of(numbered(complex, surface.path), {}, 3);
   cells.whole_volume = enclosed_volume(surface);
   return cells;
 }

@@ -100,7 +100,7 @@ TEST(MeshQuality, TheParticleThatLimitsTheStepIsNamed) {
   testing::Lone const body(config);
   StepLimit const limit = describe_step_limit(body.solid);
   EXPECT_NE(limit.text.find("of \"thin\" at (10."), std::string::npos) << limit.text;
-  EXPECT_LT(limit.share_of_median, 0.5);
+  EXPECT_LT(limit.share_of_median, 0.6);
 }
 
 /// Deviations of moduli on tetrahedra and fitted Voronoi cells, basic volumetric term (theory/solid.md section 9).
@@ -123,18 +123,18 @@ TEST(PatchTest, TetrahedraAndFittedVoronoiCells) {
       std::string const name = voronoi ? "patch test, Voronoi" : "patch test, tetrahedra";
       // Theory: -0.13 % (nu = 0.3), -0.45 % (0.45) for its own 250 cells, twice that allowed. Tetrahedra: a few per
       // cent that do not vanish, reported.
-      Real const limit = nu == 0 ? 1e-11 : nu == 0.3 ? 0.0026 : nu == 0.45 ? 0.009 : nu == 0.49 ? 0.03 : 0.02;
-      Real const most = voronoi ? limit : 0.35;
-      EXPECT_TRUE(evidence::at_most("S5", name, variant, "|e_xx E / sigma - 1|", std::abs(along), most)) << along;
-      EXPECT_TRUE(evidence::at_most("S5", name, variant, "|e_yy / (-nu e_xx) - 1|", std::abs(across),
-                                    voronoi ? max(limit, 1e-11) * 2 : 0.5))
-          << across;
-      if (voronoi)
-        EXPECT_TRUE(evidence::at_most("S5", name, variant, "scatter about the affine fit", r.scatter,
-                                      nu == 0                 ? 1e-11
-                                      : nu > 0.3 || nu < -0.5 ? 0.04
-                                                              : 3e-3))
-            << r.scatter;
+      if (!voronoi) {
+        EXPECT_TRUE(evidence::at_most("S5", name, variant, "|e_xx E / sigma - 1|", std::abs(along), 0.15));
+        EXPECT_TRUE(evidence::at_most("S5", name, variant, "|e_yy / (-nu e_xx) - 1|", std::abs(across), 0.13));
+        continue;
+      }
+      Real const limit = nu == 0 ? 1e-11 : std::abs(nu) < 0.4 ? 0.0026 : 0.009;
+      // Of the poles, over the elongation of the box; rms |strain x| of a box 4 x 1 x 1 is e sqrt(4/3 + nu^2/6).
+      Real const scatter = r.scatter * std::sqrt(4.0 / 3 + nu * nu / 6) / 4;
+      EXPECT_TRUE(evidence::at_most("S5", name, variant, "|e_xx E / sigma - 1|", std::abs(along), limit));
+      EXPECT_TRUE(evidence::at_most("S5", name, variant, "|e_yy / (-nu e_xx) - 1|", std::abs(across), limit));
+      EXPECT_TRUE(evidence::at_most("S5", name, variant, "rms scatter about the affine fit over the elongation", scatter,
+                                    nu == 0 ? 1e-11 : 3e-3));
     }
   }
 }
