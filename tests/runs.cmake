@@ -72,7 +72,7 @@ brisance_expect(check_two-bars CODE 0 LABELS unit
                 COMMAND ${program} check ${scenes}/two-bars.toml)
 brisance_expect(mesh_group_missing CODE 2 LABELS unit ABSENT ${runs}/no-group
                 MESSAGE "two-bars.toml:[0-9]+:[0-9]+: solid.body .bar.: .*meshes/two-bars.msh: no element is in a physical volume .copper.. Physical volumes: aluminium, steel"
-                COMMAND ${program} run ${scenes}/two-bars.toml --out ${runs}/no-group --set solid.body.0.mesh.group=copper)
+                COMMAND ${program} run ${scenes}/two-bars.toml --out ${runs}/no-group --set "solid.body.0.mesh.group=\"copper\"")
 
 brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)

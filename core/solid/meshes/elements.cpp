@@ -232,6 +232,7 @@ Cells cells_of(ElementMesh mesh, MeshFileConfig const& config, int run_dimension
   for (auto const& [nodes, s] : faces)
     if (s.other < 0) boundary.push_back({nodes, s.cell, static_cast<int>(s.slot - cells.first[at(s.cell)])});
   check_boundary(mesh, kept.cells, cells, boundary, config.coincident_nodes == "refuse");
+  check_overlaps(mesh, kept.cells, boundary);
 
   for (MeshElement const& e : kept.cells) cells.region.push_back(e.groups);
   cells.region_names = mesh.group_sets;

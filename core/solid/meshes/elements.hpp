@@ -30,7 +30,7 @@ int split_warped(ElementMesh& mesh, std::vector<MeshElement>& elements);
 /// Elements to cells with neighbours, regions (physical volumes) and face groups (physical surfaces).
 /// Errors: Failure::scene naming file, element and place: repeated nodes, no or negative volume, faces that are not
 /// plane, not convex, three elements at a face, elements on the same side of a face, coincident nodes, hanging nodes,
-/// a boundary element that is no face of any element.
+/// elements in each other, a boundary element that is no face of any element.
 Cells cells_of(ElementMesh mesh, MeshFileConfig const& config, int dimension);
 
 }  // namespace brisance::solid

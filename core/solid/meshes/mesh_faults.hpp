@@ -36,5 +36,8 @@ void check_sides(ElementMesh const& mesh, MeshElement const& a, MeshElement cons
 /// triangles.
 void check_boundary(ElementMesh const& mesh, std::span<MeshElement const> elements, Cells const& cells,
                     std::span<BoundaryFace const> boundary, bool coincident);
+/// Elements at the boundary do not lie in each other. Those that share nodes are told by their faces.
+void check_overlaps(ElementMesh const& mesh, std::span<MeshElement const> elements,
+                    std::span<BoundaryFace const> boundary);
 
 }  // namespace brisance::solid

@@ -248,6 +248,16 @@ TEST(BrokenMesh, FacesThatDoNotMatchAreNamed) {
   expect_refused("quadrangle", mixed, {"quadrangle where", "triangle", "pyramid"});
 }
 
+TEST(BrokenMesh, ElementsInEachOtherAreNamed) {
+  Msh m = testing::brick_mesh({2, 1, 1}, false);
+  int const shift = static_cast<int>(m.nodes.size());
+  for (Vec3 const& x : Grid{1, 1, 1}.nodes()) m.nodes.push_back(x + Vec3{1.9, 0.3, 0.2});
+  auto c = Grid{1, 1, 1}.corners(0, 0, 0);
+  for (int& n : c) n += shift;
+  m.add(5, 3, 1, c);
+  expect_refused("overlap", m, {"elements 2 and 5 overlap by 0.1", "(1.95, 0.65, 0.6) m"});
+}
+
 TEST(BrokenMesh, UnreadableFilesAreNamed) {
   EXPECT_NE(what(scene("/nowhere/a.msh")).find("cannot be read: No such file"), std::string::npos);
   auto refused = [](std::string const& name, std::string const& content, std::string const& word) {

@@ -133,8 +133,8 @@ TEST(PatchTest, TetrahedraAndFittedVoronoiCells) {
       Real const scatter = r.scatter * std::sqrt(4.0 / 3 + nu * nu / 6) / 4;
       EXPECT_TRUE(evidence::at_most("S5", name, variant, "|e_xx E / sigma - 1|", std::abs(along), limit));
       EXPECT_TRUE(evidence::at_most("S5", name, variant, "|e_yy / (-nu e_xx) - 1|", std::abs(across), limit));
-      EXPECT_TRUE(evidence::at_most("S5", name, variant, "rms scatter about the affine fit over the elongation", scatter,
-                                    nu == 0 ? 1e-11 : 3e-3));
+      EXPECT_TRUE(evidence::at_most("S5", name, variant, "rms scatter about the affine fit over the elongation",
+                                    scatter, nu == 0 ? 1e-11 : 3e-3));
     }
   }
 }
