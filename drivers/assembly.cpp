@@ -137,6 +137,25 @@ parallel::Partition assign_owners(Scene const& scene, fluid::Grid const* grid, s
   return parallel::partition(graph, ranks, units);
 }
 
+namespace {
+
+/// Every rank reads and cuts the bodies for itself: a mesh file that differs between machines would end in nonsense.
+void require_same_mesh(solid::Mesh const& mesh, parallel::Comm& comm) {
+  std::uint64_t hash = 0;
+  for (solid::Particle const& p : mesh.particles)
+    for (int d = 0; d < 3; ++d) hash = 0x100000001B3u * (hash ^ std::bit_cast<std::uint64_t>(p.centre[d]));
+  std::array<Real, 4> ends{};
+  for (std::size_t half = 0; half < 2; ++half) {
+    ends[2 * half] = static_cast<Real>(hash >> (32 * half) & 0xFFFFFFFFu);
+    ends[2 * half + 1] = -ends[2 * half];
+  }
+  comm.min(std::span(ends));
+  require(ends[0] == -ends[1] && ends[2] == -ends[3], Failure::system,
+          "the ranks built different bodies: do all machines see the same mesh files and run the same program?");
+}
+
+}  // namespace
+
 std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   auto world = std::make_unique<World>();
   World& w = *world;
@@ -168,6 +187,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
                 "fluid.products: cut cells do not carry products yet; use charges of model \"balloon\" beside solids.");
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
+    require_same_mesh(*w.mesh, comm);
     w.surface = std::make_shared<solid::Surface>(*w.mesh);
   }
   if (coupled) require_clear_periodic_sides(scene, *grid, *w.mesh, *w.surface);

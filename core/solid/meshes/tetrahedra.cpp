@@ -16,6 +16,7 @@
 
 #include "core/solid/meshes/closed_surface.hpp"
 #include "core/solid/meshes/elements.hpp"
+#include "core/solid/meshes/smoothing.hpp"
 
 namespace brisance::solid {
 namespace {
@@ -95,14 +96,17 @@ Cells tetrahedra_in(TriangleSurface const& surface, int particles) {
   Criteria const criteria(parameter::edge_size = bound, parameter::facet_angle = 25, parameter::facet_size = bound,
                           parameter::facet_distance = 0.05 * edge, parameter::cell_radius_edge_ratio = 2,
                           parameter::cell_size = bound);
+  // Without the optimisers of CGAL: they order by addresses, and two ranks would end with different meshes.
   CGAL::get_default_random() = CGAL::Random(0);  // of the first points on the surface
-  Complex const complex = CGAL::make_mesh_3<Complex>(domain, criteria, parameter::perturb(), parameter::exude());
+  Complex const complex = CGAL::make_mesh_3<Complex>(domain, criteria, parameter::no_perturb(), parameter::no_exude());
   if (complex.number_of_cells_in_complex() == 0)
     mesh_error(surface.path, 0,
                "no tetrahedra of this size fit into the surface: ask for more than " + std::to_string(particles) +
                    " particles.");
 
-  Cells cells = cells_of(numbered(complex, surface.path), {}, 3);
+  ElementMesh mesh = numbered(complex, surface.path);
+  improve_tetrahedra(mesh);
+  Cells cells = cells_of(std::move(mesh), {}, 3);
   cells.whole_volume = enclosed_volume(surface);
   return cells;
 }

@@ -5,9 +5,10 @@
 
 namespace brisance::solid {
 
-/// Delaunay tetrahedra, about `particles` of them, sharp edges kept, slivers removed.  Source: CGAL, 3D Mesh
-/// Generation. Expects: check_closed(surface).  The same on every rank: one thread, no time limit, fixed seeds. Errors:
-/// Failure::scene when no tetrahedra of that size fit.
+/// Delaunay tetrahedra, about `particles` of them, sharp edges kept, improved by moving inner nodes.
+/// Source: CGAL, 3D Mesh Generation.  Expects: check_closed(surface).
+/// The same on every rank: one thread, fixed seed, no optimiser of CGAL.
+/// Errors: Failure::scene when no tetrahedra of that size fit.
 Cells tetrahedra_in(TriangleSurface const& surface, int particles);
 
 }  // namespace brisance::solid
