@@ -12,9 +12,9 @@
 namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
-  static std::vector<std::string> const names{"fluid.euler",    "fluid.viscosity",    "fluid.gravity",
-                                              "solid.motion",   "solid.links",        "solid.gravity",
-                                              "solid.fracture", "coupling.cut_cells", "output.gauges"};
+  static std::vector<std::string> const names{
+      "fluid.euler",   "fluid.viscosity", "fluid.gravity",  "solid.motion",       "solid.links",
+      "solid.gravity", "solid.contact",   "solid.fracture", "coupling.cut_cells", "output.gauges"};
   return names;
 }
 
@@ -166,6 +166,10 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (coupled && scene.fluid->products)
     scene_error(scene.fluid->products->at,
                 "fluid.products: cut cells do not carry products yet; use charges of model \"balloon\" beside solids.");
+  if (coupled && scene.solid->contact)
+    scene_error(scene.solid->contact->at,
+                "solid.contact and coupling.cut_cells do not go together yet: the gas between bodies that touch has no "
+                "cells. Leave contact out beside a fluid, or cut_cells out where the gas does not matter");
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
     w.surface = std::make_shared<solid::Surface>(*w.mesh);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "core/solid/contact/contact.hpp"
 #include "core/solid/fracture/fracture.hpp"
 #include "core/solid/rows.hpp"
 
@@ -68,6 +69,9 @@ void Dynamics::join(Plan& plan) {
     });
     plan.limit("solid.links",
                [this](Clock const&) { return solid_.stable_limit().by_rotation ? 1e300 : solid_.stable_step(); });
+  } else {
+    // Other effects add to the forces, which have to start from nothing.
+    plan.at(Stage::forces, [this](Clock const&) { solid_.compute_forces(); });
   }
 }
 
@@ -78,6 +82,7 @@ void Dynamics::start() {
 
 std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm& comm) {
   std::vector<std::unique_ptr<Effect>> effects;
+  if (config.contact) effects.push_back(std::make_unique<Contact>(config, solid, comm));
   if (config.fracture) {
     require(config.links.has_value(), config.fracture->at,
             "solid.fracture breaks links, and the scene has none: add links = {} to [solid]");

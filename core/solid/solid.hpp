@@ -118,6 +118,8 @@ class Solid {
     return ends_of(pose_[static_cast<std::size_t>(links_.end_i(link))],
                    pose_[static_cast<std::size_t>(links_.end_j(link))]);
   }
+  /// Changes whenever a link breaks or a broken one is put back: what depends on open faces is then due.
+  std::uint64_t breaks() const { return breaks_; }
   /// Does a link that is not broken join two particles? Expects: one of them owned or in the first layer of ghosts.
   bool linked(GlobalId a, GlobalId b) const;
 
@@ -141,6 +143,8 @@ class Solid {
   Real stable_step() const { return stable_limit().dt; }
   /// The bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
   StableStep link_limit() const;
+  /// 2/omega_I of one owned particle, s; 1e300 when it is held or has no links.
+  Real link_limit_of(Index owned) const;
 
   // The parts of the energy, J: of a particle with its rotation, of its volumetric strain (owned and first layer, at
   // the last compute_forces), and of a link.
@@ -213,7 +217,8 @@ class Solid {
   std::vector<double> intact_;  // 1 - d of the links; empty without damage
   std::size_t broken_ = 0;
   std::vector<GapBlock> gaps_;  // empty without damage
-  bool volumetric_ = false;     // some lambda is not zero
+  std::uint64_t breaks_ = 0;
+  bool volumetric_ = false;  // some lambda is not zero
   struct LoadedFace {
     Index particle;
     Vec3 force, arm;  // body frame

@@ -69,6 +69,7 @@ void SolidConfig::keys(Keys<SolidConfig>& k) {
   k("motion", &SolidConfig::motion, "", "time integration of the particles");
   k("gravity", &SolidConfig::gravity, "m/s2", "acceleration of gravity");
   k("fracture", &SolidConfig::fracture, "", "links weaken and break by the criteria of its laws");
+  k("contact", &SolidConfig::contact, "", "contact between bodies and between fragments");
 }
 
 }  // namespace brisance::solid

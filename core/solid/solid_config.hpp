@@ -9,6 +9,7 @@
 #include "core/base/location.hpp"
 #include "core/base/vec3.hpp"
 #include "core/solid/fracture/fracture_config.hpp"
+#include "core/solid/contact/contact_config.hpp"
 
 namespace brisance {
 template <class T>
@@ -79,6 +80,7 @@ struct SolidConfig {
   MotionConfig motion;
   std::optional<Vec3> gravity;  ///< m/s2
   std::optional<FractureConfig> fracture;
+  std::optional<ContactConfig> contact;
   Location at;
   static void keys(Keys<SolidConfig>& k);
 };

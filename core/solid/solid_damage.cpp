@@ -37,6 +37,7 @@ void Solid::set_bulk(GlobalId particle) {
 }
 
 void Solid::weaken(std::size_t link, Real intact) {
+  if ((intact == 0) != (intact_[link] == 0)) ++breaks_;
   if (intact_[link] == 0) --broken_;
   if (intact == 0) ++broken_;
   intact_[link] = intact;

@@ -125,6 +125,11 @@ StableStep Solid::link_limit() const {
   return best;
 }
 
+Real Solid::link_limit_of(Index owned) const {
+  if (link_limits_.empty()) link_limits_ = link_limits();
+  return link_limits_[at(owned)];
+}
+
 StableStep Solid::stable_limit() const {
   StableStep best = link_limit();
   best.dt *= cfl_;

@@ -1,0 +1,243 @@
+#include "core/solid/contact/contact.hpp"
+
+#include <algorithm>
+
+#include "parallel/archive.hpp"
+
+namespace brisance::solid {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+constexpr std::uint32_t contact_kind = 0x434f4e54;  // "CONT"
+
+/// One number for a pair of particles, as rows of a checkpoint and entities of the digest need it.
+GlobalId number_of(std::pair<GlobalId, GlobalId> const& pair, GlobalId particles) {
+  return pair.first * particles + pair.second;
+}
+
+}  // namespace
+
+Contact::Contact(SolidConfig const& config, Solid& solid, parallel::Comm& comm)
+    : config_(*config.contact),
+      damping_(damping_for(config_.restitution)),
+      link_cfl_(config.motion.cfl),
+      gravity_(config.gravity),
+      solid_(solid),
+      list_(solid, comm) {}
+
+void Contact::join(Plan& plan) {
+  plan.effect("solid.contact", [this] { return list_.bytes() + overlaps_.size() * sizeof(Overlap); });
+  plan.at(Stage::contact, [this](Clock const& clock) { apply(clock); });
+  plan.limit("solid.contact", [this](Clock const&) { return time_step(); });
+  plan.account([this](Ledger& ledger) { account(ledger); });
+  Plan::Keep keep;
+  struct Saved {
+    std::map<PairId, PairMemory> memory;
+    parallel::ExactSum dissipated;
+  };
+  auto saved = std::make_shared<Saved>();
+  keep.save = [this, saved] {
+    saved->memory.clear();
+    for (std::size_t k = 0; k < overlaps_.size(); ++k)
+      if (overlaps_[k].active) saved->memory.emplace(listed_[k], overlaps_[k].memory);
+    saved->dissipated = dissipated_;
+  };
+  keep.restore = [this, saved] {
+    kept_ = saved->memory;
+    dissipated_ = saved->dissipated;
+    overlaps_.clear(), listed_.clear();
+    list_.invalidate();
+    step_ = -1;
+  };
+  keep.write = [this](parallel::ArchiveWriter& file) { write(file); };
+  keep.read = [this](parallel::ArchiveReader& file) { read(file); };
+  keep.digest = [this](parallel::Digest& digest) { this->digest(digest); };
+  plan.keep(std::move(keep));
+}
+
+void Contact::start() {
+  list_.invalidate();
+  refresh();
+  measure();
+}
+
+/// Overlaps and their energy, without forces.
+void Contact::measure() {
+  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+    Overlap& o = overlaps_[k];
+    find_overlap(k);
+    o.active = o.common.volume > 0;
+    o.energy = o.law.energy(o.common.volume) + o.memory.stored();
+  }
+}
+
+Contact::PairId Contact::id_of(std::size_t pair) const {
+  ContactPair const& p = list_.pairs()[pair];
+  return {list_.actors()[at(p.a)].id, list_.actors()[at(p.b)].id};
+}
+
+bool Contact::mine(std::size_t pair) const { return list_.actors()[at(list_.pairs()[pair].a)].local >= 0; }
+
+PairLaw Contact::law_of(ContactPair const& pair) const {
+  ContactActor const &a = list_.actors()[at(pair.a)], &b = list_.actors()[at(pair.b)];
+  Material const &ma = solid_.mesh().material(a.id), &mb = solid_.mesh().material(b.id);
+  Real const volume = min(a.shape->volume, b.shape->volume);
+  Real const nu = 0.5 * (ma.poisson_ratio + mb.poisson_ratio);
+  PairLaw law;
+  law.stiffness = config_.stiffness * min(ma.young_modulus, mb.young_modulus) / volume;
+  law.knee = 0.2 * volume;
+  law.damping = damping_;
+  law.friction = config_.friction;
+  law.shear_ratio = config_.friction > 0 ? 2 * (1 - nu) / (2 - nu) : 0;
+  return law;
+}
+
+/// A list that is complete for the present poses, and the poses. Was it built anew?
+bool Contact::refresh() {
+  bool const anew = list_.update();
+  if (anew) carry_over();
+  list_.exchange();
+  return anew;
+}
+
+/// What the pairs remember moves to the new list.
+void Contact::carry_over() {
+  std::vector<Overlap> fresh(list_.pairs().size());
+  std::vector<PairId> ids;
+  for (std::size_t k = 0, old = 0; k < fresh.size(); ++k) {
+    PairId const id = id_of(k);
+    ids.push_back(id);
+    while (old < listed_.size() && listed_[old] < id) ++old;
+    Overlap& o = fresh[k];
+    if (old < listed_.size() && listed_[old] == id)
+      o = overlaps_[old];
+    else if (auto const kept = kept_.find(id); kept != kept_.end())
+      o.memory = kept->second, o.active = true;
+    o.law = law_of(list_.pairs()[k]);
+  }
+  kept_.clear();
+  overlaps_ = std::move(fresh);
+  listed_ = std::move(ids);
+}
+
+void Contact::find_overlap(std::size_t pair) {
+  ContactPair const& p = list_.pairs()[pair];
+  Overlap& o = overlaps_[pair];
+  o.common = {};
+  Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
+  if (norm2(shift) >= square(list_.actors()[at(p.a)].shape->outer_radius + list_.actors()[at(p.b)].shape->outer_radius))
+    return;
+  PlacedConvex const &a = list_.placed(p.a), &b = list_.placed(p.b);
+  if (!separated_by_face(a, b, shift, o.separating_plane)) o.common = clipper_.intersect(a, b, shift);
+}
+
+PairEnd Contact::end_of(Index actor) const {
+  ContactActor const& of = list_.actors()[at(actor)];
+  PairEnd end;
+  end.q = list_.pose(actor).q;
+  end.v = list_.half(actor).v;
+  end.omega = list_.half(actor).omega;
+  if (of.held) return end;
+  end.inverse_mass = of.inverse_mass();
+  Mat3 const r = matrix(end.q);
+  end.inverse_inertia = (1 / of.density) * (r * of.shape->inverse_inertia * transpose(r));
+  return end;
+}
+
+void Contact::apply(Clock const& clock) {
+  bool const again = step_ == clock.step;  // links broke in this step: forces anew at the same positions
+  if (!again)
+    for (Overlap& o : overlaps_) o.before = o.memory, o.was_active = o.active;
+  step_ = clock.step;
+  bool const first_list = !kept_.empty();
+  refresh();
+  if (first_list)
+    for (Overlap& o : overlaps_) o.before = o.memory, o.was_active = o.active;
+  std::span<Wrench> const wrench = solid_.internal();
+  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+    Overlap& o = overlaps_[k];
+    ContactPair const& p = list_.pairs()[k];
+    find_overlap(k);
+    o.active = o.common.volume > 0;
+    o.energy = 0;
+    o.memory = {};
+    if (!o.active && !o.was_active) continue;
+    Real const held_before = o.was_active ? o.before.stored() : 0;
+    PairEnd const a = end_of(p.a), b = end_of(p.b);
+    if (o.active) {
+      Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
+      PairForce const f = contact_force(o.law, o.common, shift, a, b, clock.dt, o.was_active ? &o.before : nullptr);
+      o.memory = f.memory;
+      o.energy = f.energy;
+      auto const add = [&](Index actor, Vec3 const& force, Vec3 const& torque) {
+        Index const local = list_.actors()[at(actor)].local;
+        if (local < 0) return;
+        wrench[at(local)].force += force;
+        wrench[at(local)].torque += torque;
+      };
+      add(p.a, f.force, f.torque_a);
+      add(p.b, -f.force, f.torque_b);
+    }
+    if (!mine(k)) continue;
+    if (again) {
+      // A face that opened under pressure goes on pressing: that energy did not leave with its link.
+      dissipated_.add(o.first_energy - o.energy);
+    } else {
+      // Work of damping and friction over the drift, by the trapezoid of the two kicks that the drift lies between;
+      // what the spring of friction took is not lost.
+      auto const power = [&](PairMemory const& m) {
+        return dot(m.force, a.v - b.v) + dot(m.torque_a, a.omega) + dot(m.torque_b, b.omega);
+      };
+      dissipated_.add(-0.5 * clock.dt * (power(o.before) + power(o.memory)) - (o.memory.stored() - held_before));
+    }
+    o.first_energy = o.energy;
+  }
+}
+
+void Contact::account(Ledger& ledger) {
+  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+    if (!overlaps_[k].active || !mine(k)) continue;
+    ledger.add(Entry::energy, overlaps_[k].energy);
+    ledger.add(Entry::solid_elastic, overlaps_[k].energy);
+  }
+  ledger.add(Entry::dissipated, dissipated_);
+  dissipated_ = {};
+}
+
+std::int64_t Contact::overlapping_pairs() const {
+  std::int64_t count = 0;
+  for (std::size_t k = 0; k < overlaps_.size(); ++k) count += overlaps_[k].active && mine(k);
+  return count;
+}
+
+void Contact::digest(parallel::Digest& to) const {
+  for (std::size_t k = 0; k < overlaps_.size(); ++k)
+    if (overlaps_[k].active && mine(k)) {
+      auto const row = overlaps_[k].memory.pack();
+      to.add(contact_kind, number_of(listed_[k], solid_.mesh().size()), row);
+    }
+}
+
+void Contact::write(parallel::ArchiveWriter& file) const {
+  std::vector<GlobalId> ids;
+  std::vector<double> rows;
+  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+    if (!overlaps_[k].active || !mine(k)) continue;
+    ids.push_back(number_of(listed_[k], solid_.mesh().size()));
+    auto const row = overlaps_[k].memory.pack();
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+  file.sparse("solid/contact", PairMemory::size, ids, rows);
+}
+
+void Contact::read(parallel::ArchiveReader& file) {
+  auto const stored = file.sparse("solid/contact", PairMemory::size);
+  kept_.clear();
+  for (std::size_t r = 0; r < stored.ids.size(); ++r) {
+    PairId const id{stored.ids[r] / solid_.mesh().size(), stored.ids[r] % solid_.mesh().size()};
+    kept_.emplace(id, PairMemory::unpack(stored.data.data() + r * PairMemory::size));
+  }
+}
+
+}  // namespace brisance::solid
