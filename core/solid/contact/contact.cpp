@@ -9,6 +9,8 @@ namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
+/// Of a row of accelerations: free and its turn, by contacts and its turn.
+constexpr std::size_t width = 12;
 constexpr std::uint32_t contact_kind = 0x434f4e54;  // "CONT"
 
 /// One number for a pair of particles, as rows of a checkpoint and entities of the digest need it.
@@ -132,38 +134,77 @@ void Contact::find_overlap(std::size_t pair) {
   if (!separated_by_face(a, b, shift, o.separating_plane)) o.common = clipper_.intersect(a, b, shift);
 }
 
+/// Angular acceleration under a torque, fixed frame.
+Vec3 Contact::turned_by(ContactActor const& actor, Quaternion const& q, Vec3 const& torque) const {
+  Vec3 const body = rotate(conjugate(q), torque);
+  return (1 / actor.density) * rotate(q, actor.shape->inverse_inertia * body);
+}
+
+/// What the contacts of an actor would do to it with their plain pressures, and what all else does.
+void Contact::gather_accelerations() {
+  auto const& actors = list_.actors();
+  rows_.assign(width * actors.size(), 0);
+  auto const put = [&](Index actor, std::size_t column, Vec3 const& v) {
+    for (int d = 0; d < solid_.mesh().dimension; ++d) rows_[width * at(actor) + column + at(d)] += v[d];
+  };
+  auto const put_turn = [&](Index actor, std::size_t column, Vec3 const& v) {
+    int const dimension = solid_.mesh().dimension;
+    for (int d = dimension == 3 ? 0 : dimension == 2 ? 2 : 3; d < 3; ++d)
+      rows_[width * at(actor) + column + at(d)] += v[d];
+  };
+  auto const movable = [&](Index actor) { return actors[at(actor)].local >= 0 && !actors[at(actor)].held; };
+  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+    Overlap const& o = overlaps_[k];
+    if (!o.active) continue;
+    ContactPair const& p = list_.pairs()[k];
+    Real const pressure = o.law.pressure(o.common.volume);
+    Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
+    auto const push = [&](Index actor, Vec3 const& area, Vec3 const& moment) {
+      if (!movable(actor)) return;
+      put(actor, 6, (-pressure * actors[at(actor)].inverse_mass()) * area);
+      put_turn(actor, 9, turned_by(actors[at(actor)], list_.pose(actor).q, -pressure * moment));
+    };
+    push(p.a, o.common.area, o.common.moment);
+    push(p.b, -o.common.area, cross(shift, o.common.area) - o.common.moment);
+  }
+  for (Index k = 0; k < static_cast<Index>(actors.size()); ++k) {
+    if (!movable(k)) continue;
+    std::size_t const l = at(actors[at(k)].local);
+    Wrench const &in = solid_.internal()[l], &load = solid_.load()[l];
+    put(k, 0, actors[at(k)].inverse_mass() * (in.force + load.force) + gravity_.value_or(Vec3{}));
+    put_turn(k, 3, turned_by(actors[at(k)], list_.pose(k).q, in.torque + load.torque));
+  }
+  list_.exchange_rows(rows_, width);
+}
+
 PairEnd Contact::end_of(Index actor) const {
-  ContactActor const& of = list_.actors()[at(actor)];
-  PairEnd end;
-  end.q = list_.pose(actor).q;
-  end.v = list_.half(actor).v;
-  end.omega = list_.half(actor).omega;
-  if (of.held) return end;
-  end.inverse_mass = of.inverse_mass();
-  Mat3 const r = matrix(end.q);
-  end.inverse_inertia = (1 / of.density) * (r * of.shape->inverse_inertia * transpose(r));
-  return end;
+  auto const column = [&](std::size_t c) {
+    double const* r = &rows_[width * at(actor) + c];
+    return Vec3{r[0], r[1], r[2]};
+  };
+  return {
+      list_.pose(actor).q, list_.half(actor).v, list_.half(actor).omega, column(0), column(3), column(6), column(9)};
 }
 
 void Contact::apply(Clock const& clock) {
   bool const again = step_ == clock.step;  // links broke in this step: forces anew at the same positions
-  if (!again)
-    for (Overlap& o : overlaps_) o.before = o.memory, o.was_active = o.active;
   step_ = clock.step;
-  bool const first_list = !kept_.empty();
+  bool const remembered = !kept_.empty();
+  if (!again && !remembered) begin_step();
   refresh();
-  if (first_list)
-    for (Overlap& o : overlaps_) o.before = o.memory, o.was_active = o.active;
+  if (remembered) begin_step();  // what was kept is now beside its pairs
+  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+    find_overlap(k);
+    overlaps_[k].active = overlaps_[k].common.volume > 0;
+  }
+  gather_accelerations();
   std::span<Wrench> const wrench = solid_.internal();
   for (std::size_t k = 0; k < overlaps_.size(); ++k) {
     Overlap& o = overlaps_[k];
     ContactPair const& p = list_.pairs()[k];
-    find_overlap(k);
-    o.active = o.common.volume > 0;
     o.energy = 0;
     o.memory = {};
     if (!o.active && !o.was_active) continue;
-    Real const held_before = o.was_active ? o.before.stored() : 0;
     PairEnd const a = end_of(p.a), b = end_of(p.b);
     if (o.active) {
       Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
@@ -179,20 +220,29 @@ void Contact::apply(Clock const& clock) {
       add(p.a, f.force, f.torque_a);
       add(p.b, -f.force, f.torque_b);
     }
-    if (!mine(k)) continue;
-    if (again) {
-      // A face that opened under pressure goes on pressing: that energy did not leave with its link.
-      dissipated_.add(o.first_energy - o.energy);
-    } else {
-      // Work of damping and friction over the drift, by the trapezoid of the two kicks that the drift lies between;
-      // what the spring of friction took is not lost.
-      auto const power = [&](PairMemory const& m) {
-        return dot(m.force, a.v - b.v) + dot(m.torque_a, a.omega) + dot(m.torque_b, b.omega);
-      };
-      dissipated_.add(-0.5 * clock.dt * (power(o.before) + power(o.memory)) - (o.memory.stored() - held_before));
-    }
-    o.first_energy = o.energy;
+    if (mine(k)) book(o, a, b, clock.dt, again);
   }
+}
+
+void Contact::begin_step() {
+  for (Overlap& o : overlaps_) o.before = o.memory, o.was_active = o.active;
+}
+
+/// What left the mechanical account since the start of the step.
+void Contact::book(Overlap& o, PairEnd const& a, PairEnd const& b, Real dt, bool again) {
+  if (again) {
+    // A face that opened under pressure goes on pressing: that energy did not leave with its link.
+    dissipated_.add(o.first_energy - o.energy);
+  } else {
+    // Work of damping and friction over the drift, by the trapezoid of the two kicks that the drift lies between;
+    // what the spring of friction took is not lost.
+    auto const power = [&](PairMemory const& m) {
+      return dot(m.force, a.v - b.v) + dot(m.torque_a, a.omega) + dot(m.torque_b, b.omega);
+    };
+    PairMemory const before = o.was_active ? o.before : PairMemory{};
+    dissipated_.add(-0.5 * dt * (power(before) + power(o.memory)) - (o.memory.stored() - before.stored()));
+  }
+  o.first_energy = o.energy;
 }
 
 void Contact::account(Ledger& ledger) {

@@ -46,11 +46,14 @@ class Contact : public Effect {
   PairLaw law_of(ContactPair const& pair) const;
   bool refresh();
   void measure();
+  void begin_step();
+  void book(Overlap& overlap, PairEnd const& a, PairEnd const& b, Real dt, bool again);
   void carry_over();
   void find_overlap(std::size_t pair);
   std::array<double, 8> motion_row(Index local);
-  void add_motion_rows();
+  void gather_accelerations();
   PairEnd end_of(Index actor) const;
+  Vec3 turned_by(ContactActor const& actor, Quaternion const& q, Vec3 const& torque) const;
   void write(parallel::ArchiveWriter& file) const;
   void read(parallel::ArchiveReader& file);
 
@@ -65,7 +68,7 @@ class Contact : public Effect {
   std::map<PairId, PairMemory> kept_;  ///< of a checkpoint or of the start of a pair of steps, until the list is built
   std::int64_t step_ = -1;             ///< the step whose forces were computed last
   parallel::ExactSum dissipated_;      ///< since the last account
-  std::vector<double> motion_rows_;
+  std::vector<double> rows_;           ///< accelerations of the actors
 };
 
 }  // namespace brisance::solid

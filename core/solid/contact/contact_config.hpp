@@ -15,7 +15,7 @@ struct ContactConfig {
   Real stiffness = 1;    ///< K_c over the smaller Young's modulus of the two
   Real restitution = 1;  ///< separating over closing speed of a flat impact; 1: no damping
   Real friction = 0;     ///< Coulomb's coefficient
-  Real cfl = 0.2;        ///< fraction of the stable step of the contacts
+  Real cfl = 0.1;        ///< fraction of the stable step of the contacts
   Location at;
   static void keys(Keys<ContactConfig>& k);
 };

@@ -6,24 +6,24 @@
 namespace brisance::solid {
 namespace {
 
-/// Rate of the overlap and what one unit of pressure takes from it: V'' = -compliance p.
+/// Rate of the overlap and how it changes: V'' = push - compliance p, p the plain pressure of this pair.
 struct Closing {
-  Vec3 moment_b{};
-  Real rate = 0, compliance = 0;
+  Real rate = 0, push = 0, compliance = 0;
 };
 
-Closing closing(Intersection const& o, Vec3 const& shift, PairEnd const& a, PairEnd const& b) {
-  Closing c;
-  c.moment_b = cross(shift, o.area) - o.moment;
-  c.rate = dot(o.area, a.v - b.v) + dot(o.moment, a.omega) + dot(c.moment_b, b.omega);
-  c.compliance = norm2(o.area) * (a.inverse_mass + b.inverse_mass) + dot(o.moment, a.inverse_inertia * o.moment) +
-                 dot(c.moment_b, b.inverse_inertia * c.moment_b);
-  return c;
+Closing closing(Intersection const& o, Vec3 const& shift, PairEnd const& a, PairEnd const& b, Real pressure) {
+  Vec3 const moment_b = cross(shift, o.area) - o.moment;
+  auto const along = [&](Vec3 const& va, Vec3 const& wa, Vec3 const& vb, Vec3 const& wb) {
+    return dot(o.area, va - vb) + dot(o.moment, wa) + dot(moment_b, wb);
+  };
+  return {along(a.v, a.omega, b.v, b.omega), along(a.free_a, a.free_turn, b.free_a, b.free_turn),
+          -along(a.contact_a, a.contact_turn, b.contact_a, b.contact_turn) / pressure};
 }
 
 /// The pressure without the kink where contact begins or ends; V_{k-1} and V_{k+1} are extrapolated.
 Real without_kink(Real pressure, Real volume, Closing const& c, Real dt, bool begins) {
-  Real const last = volume - dt * c.rate, straight = volume + dt * c.rate, pull = dt * dt * c.compliance;
+  Real const last = volume - dt * c.rate, straight = volume + dt * (c.rate + dt * c.push),
+             pull = dt * dt * c.compliance;
   if (!(pull > 0)) return pressure;
   if (begins && last < 0) {
     Real const half = 0.5 * (straight - last + pull * pressure), root = half * half - pull * pressure * straight;
@@ -90,18 +90,18 @@ PairForce contact_force(PairLaw const& law, Intersection const& overlap, Vec3 co
   f.energy = law.energy(overlap.volume);
   if (area == 0) return f;  // one inside the other: no way out is nearer than another
   Vec3 const n = overlap.area / area;
-  Closing const c = closing(overlap, shift, a, b);
   Real const slope = law.slope(overlap.volume);
   PairMemory& now = f.memory;
 
   Real pressure = law.pressure(overlap.volume);
-  // 1 for a flat contact, 2 along an edge, 3 at a corner, whose force sets in smoothly.
-  Real const flat = std::clamp(2 - overlap.depth * area / overlap.volume, 0.0, 1.0);
+  Closing const c = closing(overlap, shift, a, b, pressure);
+  // The force of an edge or a corner sets in smoothly.
+  Real const flat = std::clamp(3 - 2 * overlap.order, 0.0, 1.0);
   if (flat > 0) pressure += flat * (without_kink(pressure, overlap.volume, c, dt, before == nullptr) - pressure);
 
   Real damped = pressure;
   if (law.damping > 0) {
-    Real const u = c.rate / area, frequency = std::sqrt(slope * c.compliance);
+    Real const u = c.rate / area, frequency = std::sqrt(slope * max(c.compliance, 0));
     now.impact_speed = before ? before->impact_speed : 0;
     now.phase = before ? before->phase : 0;
     if (now.phase == 0 && u < 0) now.phase = 1;

@@ -44,9 +44,9 @@ struct PairMemory {
 /// One end of a pair during the step that led here.
 struct PairEnd {
   Quaternion q{};
-  Vec3 v{}, omega{};       ///< half-step velocities
-  Real inverse_mass = 0;   ///< 0: held
-  Mat3 inverse_inertia{};  ///< fixed frame; 0: held
+  Vec3 v{}, omega{};  ///< half-step velocities
+  /// Accelerations without the contacts, and those that the plain pressures of all its contacts give; 0: held.
+  Vec3 free_a{}, free_turn{}, contact_a{}, contact_turn{};
 };
 
 struct PairForce {

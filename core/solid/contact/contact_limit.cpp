@@ -24,20 +24,38 @@ struct MotionRow {
   explicit MotionRow(double const* r) : v{r[0], r[1], r[2]}, a{r[4], r[5], r[6]}, turning(r[3]), turning_up(r[7]) {}
 };
 
-}  // namespace
+/// Squares of the frequency (1/s2) that contacts give a particle: of their normal forces, and with friction.
+struct Frequency {
+  Real normal = 0, all = 0;
+  void operator+=(Frequency const& f) { normal += f.normal, all += f.all; }
+  void at_least(Frequency const& f) { normal = max(normal, f.normal), all = max(all, f.all); }
+};
+Frequency operator*(Real s, Frequency const& f) { return {s * f.normal, s * f.all}; }
 
-/// Velocities and accelerations of owned actors, then of all.
-void Contact::add_motion_rows() {
-  auto const& actors = list_.actors();
-  motion_rows_.assign(width * actors.size(), 0);
-  for (std::size_t k = 0; k < actors.size(); ++k) {
-    if (actors[k].local < 0) continue;
-    auto const row = motion_row(actors[k].local);
-    std::copy(row.begin(), row.end(), motion_rows_.begin() + static_cast<std::ptrdiff_t>(width * k));
-  }
-  list_.exchange_rows(motion_rows_, width);
+Real turning(ContactActor const& of) { return of.shape->largest_inverse / of.density; }
+
+/// Of a flat contact of this area (squared) as it begins.
+Frequency flat_contact(PairLaw const& law, ContactActor const& of, Real area2) {
+  if (of.held) return {};
+  Real const normal = law.stiffness * area2 / of.mass;
+  Real const shear = law.shear_ratio * law.stiffness * area2;
+  return {normal, normal + shear * (1 / of.mass + turning(of) * square(of.shape->inner_radius))};
 }
 
+/// Of an overlap as it is: g M^-1 g with the gradient g of its volume, and friction at its centre.
+Frequency contact_now(PairLaw const& law, Intersection const& common, ContactActor const& of, Pose const& pose,
+                      Vec3 const& moment, Vec3 const& arm) {
+  if (of.held) return {};
+  Vec3 const m = rotate(conjugate(pose.q), moment);
+  Real const slope = law.slope(common.volume), area2 = norm2(common.area);
+  Real const normal = slope * (area2 / of.mass + dot(m, of.shape->inverse_inertia * m) / of.density);
+  Real const shear = law.shear_ratio * slope * area2;
+  return {normal, normal + shear * (1 / of.mass + turning(of) * norm2(arm))};
+}
+
+}  // namespace
+
+/// Velocity, acceleration and how fast the outermost point turns, of one owned particle.
 std::array<double, 8> Contact::motion_row(Index local) {
   Motion const& m = solid_.motion()[at(local)];
   if (m.turns == 0) return {m.v.x, m.v.y, m.v.z, 0, 0, 0, 0, 0};
@@ -63,57 +81,56 @@ Real Contact::time_step() {
     MotionRow const m(row.data());
     dt = min(dt, time_to_cover(0.5 * ContactList::reach(list_.shape(l)), norm(m.v), norm(m.a)));
   }
-  add_motion_rows();
   auto const& actors = list_.actors();
-  std::vector<Real> squared(actors.size(), 0);  // of the frequency of the contacts of an actor
+  rows_.assign(width * actors.size(), 0);
+  for (std::size_t k = 0; k < actors.size(); ++k) {
+    if (actors[k].local < 0) continue;
+    auto const row = motion_row(actors[k].local);
+    std::copy(row.begin(), row.end(), rows_.begin() + static_cast<std::ptrdiff_t>(width * k));
+  }
+  list_.exchange_rows(rows_, width);
+  // Of each actor: all contacts it has; and the stiffest that any near pair may become before the next look.
+  std::vector<Frequency> present(actors.size()), expected(actors.size());
   for (std::size_t k = 0; k < overlaps_.size(); ++k) {
     ContactPair const& p = list_.pairs()[k];
     if (!list_.near(p)) continue;
     Overlap const& o = overlaps_[k];
     ContactActor const &a = actors[at(p.a)], &b = actors[at(p.b)];
-    MotionRow const ma(&motion_rows_[width * at(p.a)]), mb(&motion_rows_[width * at(p.b)]);
+    MotionRow const ma(&rows_[width * at(p.a)]), mb(&rows_[width * at(p.b)]);
     Real const speed = norm(ma.v - mb.v) + ma.turning + mb.turning;
     Real const acceleration = norm(ma.a - mb.a) + ma.turning_up + mb.turning_up;
 
     // Both ends of a moving pair see twice its stiffness (|u - v|^2 <= 2 |u|^2 + 2 |v|^2), a wall stands still.
     Real const shared = a.held || b.held ? 1 : 2;
-    Real const face = min(a.shape->largest_face, b.shape->largest_face);
-    auto const frequency2 = [&](ContactActor const& of, Vec3 const& moment, Vec3 const& arm, Pose const& pose) {
-      if (of.held) return 0.0;
-      Real const turning = of.shape->largest_inverse / of.density;
-      Real const shear = o.law.shear_ratio;
-      Real worst = o.law.stiffness * face * face *
-                   (1 / of.mass + shear * (1 / of.mass + turning * square(of.shape->outer_radius)));
-      if (o.active) {
-        Vec3 const m = rotate(conjugate(pose.q), moment);
-        Real const normal = norm2(o.common.area) / of.mass + dot(m, of.shape->inverse_inertia * m) / of.density;
-        Real const tangential = shear * norm2(o.common.area) * (1 / of.mass + turning * norm2(arm));
-        worst = max(worst, o.law.slope(o.common.volume) * (normal + tangential));
-      }
-      return shared * worst;
-    };
     Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
     Vec3 const moment_b = cross(shift, o.common.area) - o.common.moment;
-    Real const wa = frequency2(a, o.common.moment, o.common.centroid, list_.pose(p.a));
-    Real const wb = frequency2(b, moment_b, o.common.centroid - shift, list_.pose(p.b));
+    Real const area2 = square(min(a.shape->largest_face, b.shape->largest_face));
+    Frequency const flat_a = shared * flat_contact(o.law, a, area2), flat_b = shared * flat_contact(o.law, b, area2);
 
     Real gap = 0;
     Real const depth = 0.2 * min(a.shape->inner_radius, b.shape->inner_radius);
     if (!o.active) {
       gap = max(0, gap_along_normals(list_.placed(p.a), list_.placed(p.b), shift));
-      if (Real const touch = time_to_cover(gap, speed, acceleration); touch > 2 / std::sqrt(max(wa, wb))) {
+      if (Real const touch = time_to_cover(gap, speed, acceleration);
+          touch > config_.cfl * 2 / std::sqrt(max(flat_a.normal, flat_b.normal))) {
         dt = min(dt, touch);  // a step that ends before they meet needs no regard for their stiffness
         continue;
       }
     }
     dt = min(dt, time_to_cover(gap + depth, speed, acceleration));
-    squared[at(p.a)] += wa;
-    squared[at(p.b)] += wb;
+    expected[at(p.a)].at_least(flat_a);
+    expected[at(p.b)].at_least(flat_b);
+    if (!o.active) continue;
+    present[at(p.a)] += shared * contact_now(o.law, o.common, a, list_.pose(p.a), o.common.moment, o.common.centroid);
+    present[at(p.b)] += shared * contact_now(o.law, o.common, b, list_.pose(p.b), moment_b, o.common.centroid - shift);
   }
   for (std::size_t k = 0; k < actors.size(); ++k) {
-    if (actors[k].local < 0 || squared[k] == 0) continue;
+    if (actors[k].local < 0) continue;
+    Frequency f = present[k];
+    f.at_least(expected[k]);
+    if (f.all == 0) continue;
     Real const links = square(2 / solid_.link_limit_of(actors[k].local));
-    dt = min(dt, min(config_.cfl * 2 / std::sqrt(squared[k]), link_cfl_ * 2 / std::sqrt(squared[k] + links)));
+    dt = min(dt, min(config_.cfl * 2 / std::sqrt(f.normal), link_cfl_ * 2 / std::sqrt(f.all + links)));
   }
   return dt;
 }

@@ -94,29 +94,32 @@ Intersection Clipper::measure() const {
   Intersection sum;
   Vec3 first_moment{};
   Vec3 const apex = points_[0];
+  Vec3 largest{};
   for (std::size_t f = 0; f + 1 < faces_.first.size(); ++f) {
     int const begin = faces_.first[f], end = faces_.first[f + 1];
     Vec3 const a = points_[at(faces_.loops[at(begin)])];
+    Vec3 whole{};
     for (int k = begin + 1; k + 1 < end; ++k) {
       Vec3 const b = points_[at(faces_.loops[at(k)])], c = points_[at(faces_.loops[at(k + 1)])];
       Vec3 const area = 0.5 * cross(b - a, c - a);
       Real const volume = dot(a - apex, area) / 3;
       sum.volume += volume;
       first_moment += (volume / 4) * ((a - apex) + (b - apex) + (c - apex));
-      if (!faces_.of_a[f]) continue;
-      sum.area += area;
-      sum.moment += cross((1.0 / 3) * (a + b + c), area);
+      whole += area;
+      if (faces_.of_a[f]) sum.moment += cross((1.0 / 3) * (a + b + c), area);
     }
+    if (faces_.of_a[f]) sum.area += whole;
+    if (norm2(whole) > norm2(largest)) largest = whole;
   }
   if (!(sum.volume > 0)) return {};
   sum.centroid = apex + first_moment / sum.volume;
+  // Along the normal of the largest piece, which the sides of a thin slab do not tilt as they tilt the sum.
   Real low = 1e300, high = -1e300;
   for (Vec3 const& p : points_) {
-    Real const h = dot(p, sum.area);
+    Real const h = dot(p, largest);
     low = min(low, h), high = max(high, h);
   }
-  Real const size = norm(sum.area);
-  if (size > 0) sum.depth = (high - low) / size;
+  sum.order = (high - low) / sum.volume;
   return sum;
 }
 

@@ -12,7 +12,7 @@ struct Intersection {
   Vec3 area{};      ///< S_A = sum S_f n_f over the pieces of A's surface, m2: the gradient of the volume by x_A
   Vec3 moment{};    ///< m_A = sum S_f c_f x n_f of the same pieces, m3: the gradient by a turn of A
   Vec3 centroid{};  ///< of the volume, m
-  Real depth = 0;   ///< extent along S_A, m
+  Real order = 0;   ///< n of V ~ depth^n: 1 for a flat contact, 2 along an edge, 3 at a corner
 };
 
 /// Clips polyhedra; keeps its buffers from pair to pair.
