@@ -3,6 +3,7 @@ brisance_test(solid_unit
           unit/core/solid/link_law_test.cpp unit/core/solid/surface_test.cpp unit/core/solid/solid_test.cpp
           unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
           unit/core/solid/fracture/link_laws_test.cpp unit/core/solid/fracture/fragments_test.cpp
+          unit/core/solid/contact_test.cpp
   LINKS brisance::solid LABELS unit)
 brisance_test(solid_statics SOURCES verification/solid/statics_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_rods SOURCES verification/solid/rods_test.cpp LINKS brisance::solid Eigen3::Eigen LABELS verification)
@@ -14,3 +15,5 @@ brisance_test(solid_fracture_parallel SOURCES parallel/fracture_test.cpp LINKS b
 brisance_test(solid_restart SOURCES restart/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS restart)
 brisance_test(solid_fracture SOURCES verification/solid/fracture_test.cpp verification/solid/fracture_account_test.cpp
   LINKS brisance::solid LABELS verification)
+brisance_test(solid_contact SOURCES verification/solid/contact_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_contact_bits SOURCES parallel/contact_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)

@@ -48,9 +48,8 @@ void Contact::join(Plan& plan) {
   keep.restore = [this, saved] {
     kept_ = saved->memory;
     dissipated_ = saved->dissipated;
-    overlaps_.clear(), listed_.clear();
-    list_.invalidate();
     step_ = -1;
+    start();
   };
   keep.write = [this](parallel::ArchiveWriter& file) { write(file); };
   keep.read = [this](parallel::ArchiveReader& file) { read(file); };
@@ -59,6 +58,7 @@ void Contact::join(Plan& plan) {
 }
 
 void Contact::start() {
+  overlaps_.clear(), listed_.clear();
   list_.invalidate();
   refresh();
   measure();
@@ -88,7 +88,10 @@ PairLaw Contact::law_of(ContactPair const& pair) const {
   Real const nu = 0.5 * (ma.poisson_ratio + mb.poisson_ratio);
   PairLaw law;
   law.stiffness = config_.stiffness * min(ma.young_modulus, mb.young_modulus) / volume;
-  law.knee = 0.2 * volume;
+  // A thin body is crossed before its volume is overlapped: a fifth of the way through it counts as much.
+  Real const through =
+      min(a.shape->largest_face, b.shape->largest_face) * 2 * min(a.shape->inner_radius, b.shape->inner_radius);
+  law.knee = 0.2 * min(volume, through);
   law.damping = damping_;
   law.friction = config_.friction;
   law.shear_ratio = config_.friction > 0 ? 2 * (1 - nu) / (2 - nu) : 0;
@@ -177,22 +180,23 @@ void Contact::gather_accelerations() {
   list_.exchange_rows(rows_, width);
 }
 
-PairEnd Contact::end_of(Index actor) const {
+PairEnd Contact::end_of(Index actor, Vec3 const& area, Vec3 const& moment) const {
   auto const column = [&](std::size_t c) {
     double const* r = &rows_[width * at(actor) + c];
     return Vec3{r[0], r[1], r[2]};
   };
-  return {
-      list_.pose(actor).q, list_.half(actor).v, list_.half(actor).omega, column(0), column(3), column(6), column(9)};
+  PairEnd end{
+      list_.pose(actor).q, list_.half(actor).v, list_.half(actor).omega, column(0), column(3), column(6), column(9), 0};
+  if (ContactActor const& of = list_.actors()[at(actor)]; !of.held)
+    end.compliance = of.inverse_mass() * norm2(area) + dot(moment, turned_by(of, end.q, moment));
+  return end;
 }
 
 void Contact::apply(Clock const& clock) {
   bool const again = step_ == clock.step;  // links broke in this step: forces anew at the same positions
   step_ = clock.step;
-  bool const remembered = !kept_.empty();
-  if (!again && !remembered) begin_step();
+  if (!again) begin_step();
   refresh();
-  if (remembered) begin_step();  // what was kept is now beside its pairs
   for (std::size_t k = 0; k < overlaps_.size(); ++k) {
     find_overlap(k);
     overlaps_[k].active = overlaps_[k].common.volume > 0;
@@ -205,9 +209,10 @@ void Contact::apply(Clock const& clock) {
     o.energy = 0;
     o.memory = {};
     if (!o.active && !o.was_active) continue;
-    PairEnd const a = end_of(p.a), b = end_of(p.b);
+    Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
+    PairEnd const a = end_of(p.a, o.common.area, o.common.moment);
+    PairEnd const b = end_of(p.b, o.common.area, cross(shift, o.common.area) - o.common.moment);
     if (o.active) {
-      Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
       PairForce const f = contact_force(o.law, o.common, shift, a, b, clock.dt, o.was_active ? &o.before : nullptr);
       o.memory = f.memory;
       o.energy = f.energy;

@@ -52,7 +52,7 @@ class Contact : public Effect {
   void find_overlap(std::size_t pair);
   std::array<double, 8> motion_row(Index local);
   void gather_accelerations();
-  PairEnd end_of(Index actor) const;
+  PairEnd end_of(Index actor, Vec3 const& area, Vec3 const& moment) const;
   Vec3 turned_by(ContactActor const& actor, Quaternion const& q, Vec3 const& torque) const;
   void write(parallel::ArchiveWriter& file) const;
   void read(parallel::ArchiveReader& file);

@@ -40,6 +40,11 @@ Real without_kink(Real pressure, Real volume, Closing const& c, Real dt, bool be
 
 Real cap(Real value, Real limit) { return std::clamp(value, -limit, limit); }
 
+Vec3 capped(Vec3 const& v, Real limit) {
+  Real const size = norm(v);
+  return size > limit ? (limit / size) * v : v;
+}
+
 /// A spring whose stiffness changes keeps its force when it stiffens and its stretch when it softens: it never gains
 /// energy.
 Real carried(Real stiffness_before, Real stiffness) {
@@ -99,9 +104,9 @@ PairForce contact_force(PairLaw const& law, Intersection const& overlap, Vec3 co
   Real const flat = std::clamp(3 - 2 * overlap.order, 0.0, 1.0);
   if (flat > 0) pressure += flat * (without_kink(pressure, overlap.volume, c, dt, before == nullptr) - pressure);
 
-  Real damped = pressure;
+  Real damped = pressure, dashpot = 0;  // dashpot: N s/m, of the normal force
   if (law.damping > 0) {
-    Real const u = c.rate / area, frequency = std::sqrt(slope * max(c.compliance, 0));
+    Real const u = c.rate / area, frequency = std::sqrt(slope * (a.compliance + b.compliance));
     now.impact_speed = before ? before->impact_speed : 0;
     now.phase = before ? before->phase : 0;
     if (now.phase == 0 && u < 0) now.phase = 1;
@@ -111,10 +116,14 @@ PairForce contact_force(PairLaw const& law, Intersection const& overlap, Vec3 co
     if (now.phase == 2) now.impact_speed *= std::exp(-dt * frequency / std::numbers::pi);
     now.impact_speed = max(now.impact_speed, u);
     Real const scale = max(now.impact_speed, 0.5 * law.damping * frequency * overlap.volume / area);
-    if (scale > 0) damped = pressure * max(0, 1 + law.damping * u / scale);
+    if (scale > 0) {
+      damped = pressure * max(0, 1 + law.damping * u / scale);
+      dashpot = pressure * area * law.damping / scale;
+    }
   }
 
   Vec3 shear{};
+  Real twist = 0;
   if (law.friction > 0) {
     Vec3 const arm_a = overlap.centroid, arm_b = overlap.centroid - shift;
     Vec3 slip = a.v + cross(a.omega, arm_a) - b.v - cross(b.omega, arm_b);
@@ -126,17 +135,19 @@ PairForce contact_force(PairLaw const& law, Intersection const& overlap, Vec3 co
       shear -= dot(shear, n) * n;
       now.twist = carried(before->twist_stiffness, now.twist_stiffness) * before->twist;
     }
-    Real const most = law.friction * damped * area;
-    shear -= (now.shear_stiffness * dt) * slip;
-    if (Real const size = norm(shear); size > most) shear *= most / size;
-    now.twist = cap(now.twist - now.twist_stiffness * dt * dot(n, a.omega - b.omega),
-                    most * (2.0 / 3) * std::sqrt(area / std::numbers::pi));
+    Real const most = law.friction * damped * area, arm2 = area / (2 * std::numbers::pi);
+    Real const most_twist = most * (2.0 / 3) * std::sqrt(2 * arm2), spin = dot(n, a.omega - b.omega);
+    shear = capped(shear - (now.shear_stiffness * dt) * slip, most);
+    now.twist = cap(now.twist - now.twist_stiffness * dt * spin, most_twist);
     now.shear = rotate(conjugate(a.q), shear);
+    // The springs are damped as the pressure is: what sticks would ring for ever, and creep.
+    shear = capped(shear - (law.shear_ratio * dashpot) * slip, most);
+    twist = cap(now.twist - law.shear_ratio * dashpot * arm2 * spin, most_twist);
     f.energy += now.stored();
   }
 
   now.force = (pressure - damped) * overlap.area + shear;
-  now.torque_a = (pressure - damped) * overlap.moment + cross(overlap.centroid, shear) + now.twist * n;
+  now.torque_a = (pressure - damped) * overlap.moment + cross(overlap.centroid, shear) + twist * n;
   now.torque_b = cross(shift, now.force) - now.torque_a;
   f.force = now.force - pressure * overlap.area;
   f.torque_a = now.torque_a - pressure * overlap.moment;

@@ -9,7 +9,7 @@ namespace brisance::solid {
 /// Constants of a pair.
 struct PairLaw {
   Real stiffness = 0;    ///< kappa_c = K_c / min V, Pa/m3
-  Real knee = 0;         ///< 0.2 min V: beyond it the pressure grows with the square of the volume, m3
+  Real knee = 0;         ///< 0.2 min V or less: beyond it the pressure grows with the square of the volume, m3
   Real damping = 0;      ///< Hunt and Crossley's factor: pressure (1 + damping u / u_impact)
   Real friction = 0;     ///< Coulomb's coefficient
   Real shear_ratio = 0;  ///< k_t / k_n = 2 (1 - nu) / (2 - nu)
@@ -47,6 +47,8 @@ struct PairEnd {
   Vec3 v{}, omega{};  ///< half-step velocities
   /// Accelerations without the contacts, and those that the plain pressures of all its contacts give; 0: held.
   Vec3 free_a{}, free_turn{}, contact_a{}, contact_turn{};
+  /// g M^-1 g of this end with the gradient g of the overlap: V'' = -(sum over the ends) p when nothing else pushes.
+  Real compliance = 0;
 };
 
 struct PairForce {
