@@ -26,7 +26,7 @@ Contact::Contact(SolidConfig const& config, Solid& solid, parallel::Comm& comm)
       link_cfl_(config.motion.cfl),
       gravity_(config.gravity),
       solid_(solid),
-      list_(solid, comm) {}
+      list_(solid, comm, config_.self) {}
 
 void Contact::join(Plan& plan) {
   plan.effect("solid.contact", [this] { return list_.bytes() + overlaps_.size() * sizeof(Overlap); });
@@ -41,7 +41,7 @@ void Contact::join(Plan& plan) {
   auto saved = std::make_shared<Saved>();
   keep.save = [this, saved] {
     saved->memory.clear();
-    for (std::size_t k = 0; k < overlaps_.size(); ++k)
+    for (std::size_t const k : live_)
       if (overlaps_[k].active) saved->memory.emplace(listed_[k], overlaps_[k].memory);
     saved->dissipated = dissipated_;
   };
@@ -58,7 +58,7 @@ void Contact::join(Plan& plan) {
 }
 
 void Contact::start() {
-  overlaps_.clear(), listed_.clear();
+  overlaps_.clear(), listed_.clear(), live_.clear();
   list_.invalidate();
   refresh();
   measure();
@@ -66,10 +66,9 @@ void Contact::start() {
 
 /// Overlaps and their energy, without forces.
 void Contact::measure() {
-  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+  find_overlaps();
+  for (std::size_t const k : live_) {
     Overlap& o = overlaps_[k];
-    find_overlap(k);
-    o.active = o.common.volume > 0;
     o.energy = o.law.energy(o.common.volume) + o.memory.stored();
   }
 }
@@ -124,17 +123,31 @@ void Contact::carry_over() {
   kept_.clear();
   overlaps_ = std::move(fresh);
   listed_ = std::move(ids);
+  live_.clear();
+  for (std::size_t k = 0; k < overlaps_.size(); ++k)
+    if (overlaps_[k].active || overlaps_[k].was_active) live_.push_back(k);
 }
 
 void Contact::find_overlap(std::size_t pair) {
   ContactPair const& p = list_.pairs()[pair];
   Overlap& o = overlaps_[pair];
   o.common = {};
-  Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
-  if (norm2(shift) >= square(list_.actors()[at(p.a)].shape->outer_radius + list_.actors()[at(p.b)].shape->outer_radius))
-    return;
+  if (list_.distance2(p) >= p.touching) return;
   PlacedConvex const &a = list_.placed(p.a), &b = list_.placed(p.b);
+  Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
   if (!separated_by_face(a, b, shift, o.separating_plane)) o.common = clipper_.intersect(a, b, shift);
+}
+
+void Contact::find_overlaps() {
+  live_.clear();
+  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+    ContactPair const& p = list_.pairs()[k];
+    Overlap& o = overlaps_[k];
+    if (list_.distance2(p) >= p.touching && !o.active && !o.was_active) continue;  // most of the list: nothing to do
+    find_overlap(k);
+    o.active = o.common.volume > 0;
+    if (o.active || o.was_active) live_.push_back(k);
+  }
 }
 
 /// Angular acceleration under a torque, fixed frame.
@@ -156,10 +169,12 @@ void Contact::gather_accelerations() {
       rows_[width * at(actor) + column + at(d)] += v[d];
   };
   auto const movable = [&](Index actor) { return actors[at(actor)].local >= 0 && !actors[at(actor)].held; };
-  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+  std::vector<char> pressed(actors.size(), 0);
+  for (std::size_t const k : live_) {
     Overlap const& o = overlaps_[k];
     if (!o.active) continue;
     ContactPair const& p = list_.pairs()[k];
+    pressed[at(p.a)] = pressed[at(p.b)] = 1;
     Real const pressure = o.law.pressure(o.common.volume);
     Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
     auto const push = [&](Index actor, Vec3 const& area, Vec3 const& moment) {
@@ -171,7 +186,7 @@ void Contact::gather_accelerations() {
     push(p.b, -o.common.area, cross(shift, o.common.area) - o.common.moment);
   }
   for (Index k = 0; k < static_cast<Index>(actors.size()); ++k) {
-    if (!movable(k)) continue;
+    if (!pressed[at(k)] || !movable(k)) continue;
     std::size_t const l = at(actors[at(k)].local);
     Wrench const &in = solid_.internal()[l], &load = solid_.load()[l];
     put(k, 0, actors[at(k)].inverse_mass() * (in.force + load.force) + gravity_.value_or(Vec3{}));
@@ -197,18 +212,14 @@ void Contact::apply(Clock const& clock) {
   step_ = clock.step;
   if (!again) begin_step();
   refresh();
-  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
-    find_overlap(k);
-    overlaps_[k].active = overlaps_[k].common.volume > 0;
-  }
+  find_overlaps();
   gather_accelerations();
   std::span<Wrench> const wrench = solid_.internal();
-  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+  for (std::size_t const k : live_) {
     Overlap& o = overlaps_[k];
     ContactPair const& p = list_.pairs()[k];
     o.energy = 0;
     o.memory = {};
-    if (!o.active && !o.was_active) continue;
     Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
     PairEnd const a = end_of(p.a, o.common.area, o.common.moment);
     PairEnd const b = end_of(p.b, o.common.area, cross(shift, o.common.area) - o.common.moment);
@@ -230,7 +241,8 @@ void Contact::apply(Clock const& clock) {
 }
 
 void Contact::begin_step() {
-  for (Overlap& o : overlaps_) o.before = o.memory, o.was_active = o.active;
+  for (std::size_t const k : live_)
+    overlaps_[k].before = overlaps_[k].memory, overlaps_[k].was_active = overlaps_[k].active;
 }
 
 /// What left the mechanical account since the start of the step.
@@ -251,7 +263,7 @@ void Contact::book(Overlap& o, PairEnd const& a, PairEnd const& b, Real dt, bool
 }
 
 void Contact::account(Ledger& ledger) {
-  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+  for (std::size_t const k : live_) {
     if (!overlaps_[k].active || !mine(k)) continue;
     ledger.add(Entry::energy, overlaps_[k].energy);
     ledger.add(Entry::solid_elastic, overlaps_[k].energy);
@@ -262,12 +274,12 @@ void Contact::account(Ledger& ledger) {
 
 std::int64_t Contact::overlapping_pairs() const {
   std::int64_t count = 0;
-  for (std::size_t k = 0; k < overlaps_.size(); ++k) count += overlaps_[k].active && mine(k);
+  for (std::size_t const k : live_) count += overlaps_[k].active && mine(k);
   return count;
 }
 
 void Contact::digest(parallel::Digest& to) const {
-  for (std::size_t k = 0; k < overlaps_.size(); ++k)
+  for (std::size_t const k : live_)
     if (overlaps_[k].active && mine(k)) {
       auto const row = overlaps_[k].memory.pack();
       to.add(contact_kind, number_of(listed_[k], solid_.mesh().size()), row);
@@ -277,7 +289,7 @@ void Contact::digest(parallel::Digest& to) const {
 void Contact::write(parallel::ArchiveWriter& file) const {
   std::vector<GlobalId> ids;
   std::vector<double> rows;
-  for (std::size_t k = 0; k < overlaps_.size(); ++k) {
+  for (std::size_t const k : live_) {
     if (!overlaps_[k].active || !mine(k)) continue;
     ids.push_back(number_of(listed_[k], solid_.mesh().size()));
     auto const row = overlaps_[k].memory.pack();

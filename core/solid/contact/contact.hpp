@@ -50,6 +50,8 @@ class Contact : public Effect {
   void book(Overlap& overlap, PairEnd const& a, PairEnd const& b, Real dt, bool again);
   void carry_over();
   void find_overlap(std::size_t pair);
+  void find_overlaps();
+  Vec3 acceleration_of(Index local) const;
   std::array<double, 8> motion_row(Index local);
   void gather_accelerations();
   PairEnd end_of(Index actor, Vec3 const& area, Vec3 const& moment) const;
@@ -64,6 +66,7 @@ class Contact : public Effect {
   ContactList list_;
   Clipper clipper_;
   std::vector<Overlap> overlaps_;      ///< beside the pairs of the list
+  std::vector<std::size_t> live_;      ///< places of those that overlap, or did at the start of the step
   std::vector<PairId> listed_;         ///< ids of the pairs that `overlaps_` belongs to
   std::map<PairId, PairMemory> kept_;  ///< of a checkpoint or of the start of a pair of steps, until the list is built
   std::int64_t step_ = -1;             ///< the step whose forces were computed last

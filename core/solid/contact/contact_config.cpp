@@ -16,6 +16,9 @@ void ContactConfig::keys(Keys<ContactConfig>& k) {
   k("cfl", &ContactConfig::cfl, "1", "fraction of the stable step of the contacts: how finely an impact is resolved")
       .above(0)
       .at_most(0.5);
+  k("self", &ContactConfig::self, "",
+    "unbroken bodies touch themselves too: shells that fold, tubes that collapse; without it a body that is whole and "
+    "far from others costs nothing. Fragments of a body always touch");
 }
 
 }  // namespace brisance::solid

@@ -16,6 +16,7 @@ struct ContactConfig {
   Real restitution = 1;  ///< separating over closing speed of a flat impact; 1: no damping
   Real friction = 0;     ///< Coulomb's coefficient
   Real cfl = 0.1;        ///< fraction of the stable step of the contacts
+  bool self = true;      ///< do unbroken bodies touch themselves?
   Location at;
   static void keys(Keys<ContactConfig>& k);
 };

@@ -55,20 +55,28 @@ Frequency contact_now(PairLaw const& law, Intersection const& common, ContactAct
 
 }  // namespace
 
+/// Of an owned particle, in the dimensions of the run.
+Vec3 Contact::acceleration_of(Index local) const {
+  Motion const& m = solid_.motion()[at(local)];
+  if (m.turns == 0) return {};
+  Vec3 a = m.inverse_mass * (solid_.internal()[at(local)].force + solid_.load()[at(local)].force) +
+           gravity_.value_or(Vec3{});
+  for (int d = solid_.mesh().dimension; d < 3; ++d) a[d] = 0;
+  return a;
+}
+
 /// Velocity, acceleration and how fast the outermost point turns, of one owned particle.
 std::array<double, 8> Contact::motion_row(Index local) {
   Motion const& m = solid_.motion()[at(local)];
   if (m.turns == 0) return {m.v.x, m.v.y, m.v.z, 0, 0, 0, 0, 0};
   Convex const& shape = list_.shape(local);
   Wrench const &in = solid_.internal()[at(local)], &load = solid_.load()[at(local)];
-  Vec3 const a = m.inverse_mass * (in.force + load.force) + gravity_.value_or(Vec3{});
   Quaternion const back = conjugate(solid_.pose()[at(local)].q);
   Real const scale = shape.outer_radius / solid_.mesh().material(solid_.id(local)).density;
   auto const turning = [&](Vec3 const& spin) { return scale * norm(shape.inverse_inertia * rotate(back, spin)); };
   Real const up = shape.largest_inverse > 0 ? turning(in.torque + load.torque) : 0;
-  Vec3 moves = a;
-  for (int d = solid_.mesh().dimension; d < 3; ++d) moves[d] = 0;
-  return {m.v.x, m.v.y, m.v.z, turning(m.spin), moves.x, moves.y, moves.z, up};
+  Vec3 const a = acceleration_of(local);
+  return {m.v.x, m.v.y, m.v.z, turning(m.spin), a.x, a.y, a.z, up};
 }
 
 Real Contact::time_step() {
@@ -77,9 +85,8 @@ Real Contact::time_step() {
   Real dt = unlimited;
   // Nothing may come near and pass before it is listed: at most half a reach a step.
   for (Index const l : list_.candidates()) {
-    auto const row = motion_row(l);
-    MotionRow const m(row.data());
-    dt = min(dt, time_to_cover(0.5 * ContactList::reach(list_.shape(l)), norm(m.v), norm(m.a)));
+    Motion const& m = solid_.motion()[at(l)];
+    dt = min(dt, time_to_cover(0.5 * ContactList::reach(list_.shape(l)), norm(m.v), norm(acceleration_of(l))));
   }
   auto const& actors = list_.actors();
   rows_.assign(width * actors.size(), 0);

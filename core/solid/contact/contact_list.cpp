@@ -22,6 +22,11 @@ struct Box {
   void add(Vec3 const& p, Real radius) {
     for (int d = 0; d < 3; ++d) low[d] = min(low[d], p[d] - radius), high[d] = max(high[d], p[d] + radius);
   }
+  bool meets(Box const& other) const {
+    for (int d = 0; d < 3; ++d)
+      if (other.high[d] < low[d] || other.low[d] > high[d]) return false;
+    return true;
+  }
   bool meets(Vec3 const& p, Real radius) const {
     for (int d = 0; d < 3; ++d)
       if (p[d] + radius < low[d] || p[d] - radius > high[d]) return false;
@@ -29,11 +34,15 @@ struct Box {
   }
 };
 
+/// Spheres of this radius that share no point cannot become near before the list is built anew.
+Real skin_radius(Convex const& shape) { return shape.outer_radius + 2 * ContactList::reach(shape); }
+
 }  // namespace
 
-ContactList::ContactList(Solid& solid, parallel::Comm& comm)
+ContactList::ContactList(Solid& solid, parallel::Comm& comm, bool self)
     : solid_(solid),
       comm_(comm),
+      self_(self),
       kin_(solid, comm),
       shapes_(solid.mesh().shapes.size()),
       actor_of_(at(solid.mesh().size()), -1) {}
@@ -79,22 +88,46 @@ void ContactList::choose_candidates() {
   }
 }
 
+/// Which bodies have anything to touch: themselves, or another whose box their own meets. Collective.
+std::vector<bool> ContactList::engaged_bodies() {
+  Mesh const& mesh = solid_.mesh();
+  std::vector<Box> boxes(mesh.bodies.size());
+  for (Index const l : candidates_) {
+    GlobalId const id = solid_.id(l);
+    boxes[at(mesh.particle(id).body)].add(solid_.pose()[at(l)].x, skin_radius(convex(id)));
+  }
+  std::vector<double> ends;
+  for (Box const& b : boxes)
+    for (int d = 0; d < 3; ++d) ends.push_back(b.low[d]), ends.push_back(-b.high[d]);
+  comm_.min(std::span(ends));
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+    for (int d = 0; d < 3; ++d) {
+      boxes[b].low[d] = ends[6 * b + 2 * at(d)];
+      boxes[b].high[d] = -ends[6 * b + 2 * at(d) + 1];
+    }
+  std::vector<bool> engaged(boxes.size());
+  for (std::size_t a = 0; a < boxes.size(); ++a) {
+    engaged[a] = engaged[a] || (self_ && mesh.bodies[a].particles > 1) || kin_.in_pieces(static_cast<Index>(a));
+    for (std::size_t b = a + 1; b < boxes.size(); ++b)
+      if (boxes[a].meets(boxes[b])) engaged[a] = engaged[b] = true;
+  }
+  return engaged;
+}
+
 void ContactList::build() {
   Mesh const& mesh = solid_.mesh();
   std::vector<GlobalId> ids;
   std::vector<Sphere> spheres;
-  auto const skin_radius = [&](GlobalId id) {
-    Convex const& shape = convex(id);
-    return shape.outer_radius + 2 * reach(shape);
-  };
   auto const add = [&](GlobalId id, Vec3 const& x) {
     ids.push_back(id);
-    spheres.push_back({x, skin_radius(id)});
+    spheres.push_back({x, skin_radius(convex(id))});
   };
   Box mine;
   listed_at_.clear();
+  std::vector<bool> const engaged = engaged_bodies();
   for (Index const l : candidates_) {
     listed_at_.push_back(solid_.pose()[at(l)].x);
+    if (!engaged[at(mesh.particle(solid_.id(l)).body)]) continue;
     add(solid_.id(l), listed_at_.back());
     mine.add(spheres.back().centre, spheres.back().radius);
   }
@@ -132,13 +165,10 @@ void ContactList::build() {
     listed.push_back(pair);
   }
   std::sort(listed.begin(), listed.end());
-  GlobalId looked_at = -1;
-  std::vector<GlobalId> const* kin = nullptr;
   auto const excluded = [&](std::pair<GlobalId, GlobalId> const& pair) {
-    auto const [a, b] = pair;
-    if (mesh.particle(a).body != mesh.particle(b).body) return false;
-    if (looked_at != a) kin = &kin_.around(a), looked_at = a;
-    return std::binary_search(kin->begin(), kin->end(), b) && !kin_.parted(a, b);
+    Index const body = mesh.particle(pair.first).body;
+    if (body != mesh.particle(pair.second).body) return false;
+    return (!self_ && !kin_.in_pieces(body)) || kin_.excluded(pair.first, pair.second);
   };
   listed.erase(std::remove_if(listed.begin(), listed.end(), excluded), listed.end());
 
@@ -160,7 +190,12 @@ void ContactList::build() {
     if (!here) foreign.push_back({place, id, solid_.owner(id)});
   }
   pairs_.clear();
-  for (auto const& [a, b] : listed) pairs_.push_back({actor_of_[at(a)], actor_of_[at(b)]});
+  for (auto const& [id_a, id_b] : listed) {
+    Index const a = actor_of_[at(id_a)], b = actor_of_[at(id_b)];
+    Convex const &shape_a = *actors_[at(a)].shape, &shape_b = *actors_[at(b)].shape;
+    Real const radii = shape_a.outer_radius + shape_b.outer_radius;
+    pairs_.push_back({a, b, square(radii), square(radii + reach(shape_a) + reach(shape_b))});
+  }
   halo_.connect(comm_, foreign, actor_of_);
   pose_.assign(actors_.size(), {});
   half_.assign(actors_.size(), {});
@@ -181,12 +216,6 @@ PlacedConvex const& ContactList::placed(Index actor) {
   PlacedConvex& placed = placed_[at(actor)];
   if (!placed.shape) placed.place(*actors_[at(actor)].shape, pose(actor).q);
   return placed;
-}
-
-bool ContactList::near(ContactPair const& pair) const {
-  Convex const &a = *actors_[at(pair.a)].shape, &b = *actors_[at(pair.b)].shape;
-  Real const limit = a.outer_radius + b.outer_radius + reach(a) + reach(b);
-  return norm2(pose(pair.a).x - pose(pair.b).x) < limit * limit;
 }
 
 std::size_t ContactList::bytes() const {

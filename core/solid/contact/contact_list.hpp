@@ -23,16 +23,18 @@ struct ContactActor {
 /// Two particles that may touch before the list is built anew; places among the actors, a the one with the lower id.
 struct ContactPair {
   Index a = 0, b = 0;
+  Real touching = 0, near = 0;  ///< squares of the distances of centres below which they can overlap; are near, m2
 };
 
 /// Pairs of particles closer than twice their reach, each rank those with an owned end, sorted by ids.
-/// The reach of a particle is a quarter of its outer radius. The list stays complete until some particle has moved half
-/// its reach: until then every pair nearer than its reach is listed. What depends on nearness looks at the reach
-/// itself, never at the list, so nothing depends on when the list was built. Source: theory/solid.md section 15 (broad
-/// phase with a skin).
+/// The reach of a particle is a fifth of its outer radius: among cells of one body only kin are listed then. The list
+/// stays complete until some particle has moved half its reach: until then every pair nearer than its reach is listed.
+/// What depends on nearness looks at the reach itself, never at the list, so nothing depends on when the list was
+/// built. Source: theory/solid.md section 15 (broad phase with a skin).
 class ContactList {
  public:
-  ContactList(Solid& solid, parallel::Comm& comm);
+  /// `self`: unbroken bodies touch themselves too.
+  ContactList(Solid& solid, parallel::Comm& comm, bool self);
   ContactList(ContactList const&) = delete;
 
   /// Collective. Builds the list anew if particles moved too far, links broke or `invalidate` was called; returns
@@ -50,9 +52,10 @@ class ContactList {
   HalfVelocity const& half(Index actor) const { return half_[static_cast<std::size_t>(actor)]; }
   /// Turned corners and normals of an actor, made when first asked for after an exchange.
   PlacedConvex const& placed(Index actor);
-  static Real reach(Convex const& shape) { return 0.25 * shape.outer_radius; }
+  static Real reach(Convex const& shape) { return 0.2 * shape.outer_radius; }
+  Real distance2(ContactPair const& pair) const { return norm2(pose(pair.a).x - pose(pair.b).x); }
   /// Are two actors so near that their next step matters?
-  bool near(ContactPair const& pair) const;
+  bool near(ContactPair const& pair) const { return distance2(pair) < pair.near; }
   /// Owned particles that can touch anything: with a boundary face or a broken link.
   std::vector<Index> const& candidates() const { return candidates_; }
   Convex const& shape(Index local) { return convex(solid_.id(local)); }
@@ -63,10 +66,12 @@ class ContactList {
   Convex const& convex(GlobalId particle);
   bool moved_too_far() const;
   void choose_candidates();
+  std::vector<bool> engaged_bodies();
   void build();
 
   Solid& solid_;
   parallel::Comm& comm_;
+  bool self_;
   Kinship kin_;
   bool valid_ = false;
   std::int64_t builds_ = 0;

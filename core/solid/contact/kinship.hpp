@@ -12,23 +12,30 @@ namespace brisance::solid {
 /// Broken links are known on every rank, so that all ranks decide alike.  Source: theory/solid.md section 15.
 class Kinship {
  public:
-  Kinship(Solid const& solid, parallel::Comm& comm) : solid_(solid), comm_(comm) {}
+  Kinship(Solid const& solid, parallel::Comm& comm);
 
   /// Collective. Learns which links are broken.
   void update();
   /// Has a link of the particle broken?
   bool opened(GlobalId particle) const;
-  /// Particles within `dimension` unbroken links of one, sorted, itself included.
-  std::vector<GlobalId> const& around(GlobalId particle);
-  /// Did all links between the two break?
-  bool parted(GlobalId a, GlobalId b) const;
-  bool is_broken(std::size_t mesh_link) const { return !broken_.empty() && broken_[mesh_link]; }
+  /// Can parts of a body touch each other although it is not folded: has a link of it broken, or has it none?
+  bool in_pieces(Index body) const { return in_pieces_[static_cast<std::size_t>(body)]; }
+  /// Are two particles of one body no candidates? Cost: a walk over the surroundings of `a` unless it was asked about
+  /// last.
+  bool excluded(GlobalId a, GlobalId b);
 
  private:
+  void walk(GlobalId from);
+  bool parted(GlobalId a, GlobalId b) const;
+
   Solid const& solid_;
   parallel::Comm& comm_;
-  std::vector<bool> broken_;  ///< by link of the mesh; empty: none
-  std::vector<GlobalId> around_;
+  std::vector<bool> broken_;     ///< by link of the mesh
+  std::vector<bool> in_pieces_;  ///< by body
+  GlobalId walked_from_ = -1;
+  std::vector<std::uint32_t> walk_of_;  ///< by particle: the last walk that met it
+  std::uint32_t walk_ = 0;
+  std::vector<GlobalId> met_;
 };
 
 }  // namespace brisance::solid

@@ -243,6 +243,99 @@ TEST(Contact, RestitutionIsAsAskedAndItsLossIsOnTheAccount) {
   }
 }
 
+/// A rod of 40 cells whose first eight cells start with `speed`: a pulse of compression.
+SolidConfig pulsed_rod(Real speed) {
+  SolidConfig config = testing::one_material(1, 1, 0);
+  config.contact.emplace();
+  config.body.push_back(testing::box({0, 0, 0}, {40, 1, 1}, {40, 1, 1}));
+  config.body[0].velocity = {speed, 0, 0};
+  return config;
+}
+
+void stop_all_but_eight(SolidRun& run) {
+  for (std::size_t p = 0; p < run.solid.motion().size(); ++p)
+    if (run.solid.pose()[p].x.x > 8) run.solid.motion()[p].v = {}, run.solid.motion()[p].spin = {};
+}
+
+/// Breaks the link at x = 20; returns how many there were.
+int crack(Solid& solid) {
+  int broken = 0;
+  for (std::size_t k = 0; k < solid.links(); ++k) {
+    Link const& link = solid.mesh().links[solid.mesh_link(k)];
+    Vec3 const face = solid.mesh().particle(link.i).centre + solid.mesh().face(link.i, link.face_i).centroid;
+    if (std::abs(face.x - 20) < 0.1) solid.weaken(k, 0), ++broken;
+  }
+  return broken;
+}
+
+Real mean_velocity(SolidRun const& run, Real from, Real to) {
+  Real sum = 0;
+  int count = 0;
+  for (Index p = 0; p < run.solid.owned(); ++p)
+    if (Real const x = run.mesh.particle(run.solid.id(p)).centre.x; x > from && x < to)
+      sum += run.solid.motion()[static_cast<std::size_t>(p)].v.x, ++count;
+  return sum / count;
+}
+
+TEST(Contact, AClosedCrackTransmitsPressureAndNoTension) {
+  Real const speed = 0.01;
+  SolidRun run(pulsed_rod(speed), 3, 80, testing::comm());
+  stop_all_but_eight(run);
+  run.solid.allow_damage();
+  ASSERT_EQ(crack(run.solid), 1);
+  run.start();
+  run.to_the_end();
+  // The pulse, 16 cells long, goes through, turns round at the far end and takes the far half with it.
+  EXPECT_TRUE(near("S32", "pulse through a closed crack", "40 cells", "velocity of the far half / (0.4 v0)",
+                   mean_velocity(run, 20, 40) / (0.4 * speed), 1, 0.02));
+  EXPECT_TRUE(near("S32", "pulse through a closed crack", "40 cells", "velocity of the near half / v0",
+                   mean_velocity(run, 0, 20) / speed, 0, 0.02));
+  EXPECT_LT(run.simulation.ledger().conservation().energy, 0.02);
+  EXPECT_LT(run.simulation.ledger().conservation().momentum.x, 1e-13);
+}
+
+/// Breaks the link at x = 20 at the end of one step and books the elastic energy that leaves with it.
+class Breaker : public Effect {
+ public:
+  Breaker(Solid& solid, std::int64_t step) : solid_(solid), step_(step) {}
+  void join(Plan& plan) override {
+    solid_.allow_damage();
+    plan.effect("test.breaker", [] { return std::size_t{0}; });
+    plan.at(Stage::fracture, [this, &plan](Clock const& clock) {
+      if (clock.step != step_) return;
+      Measures before, after;
+      solid_.measure(before);
+      crack(solid_);
+      solid_.compute_forces();
+      solid_.measure(after);
+      released = before.value(Measures::elastic) - after.value(Measures::elastic);
+      plan.ask_for_forces();
+    });
+    plan.account([this](Ledger& ledger) { ledger.add(Entry::dissipated, released - booked_), booked_ = released; });
+  }
+  Real released = 0;
+
+ private:
+  Solid& solid_;
+  std::int64_t step_;
+  Real booked_ = 0;
+};
+
+TEST(Contact, TakesOverFromALinkThatBreaksUnderPressure) {
+  SolidRun run(pulsed_rod(0.01), 3, 30, testing::comm());
+  stop_all_but_eight(run);
+  Breaker breaker(run.solid, 40);
+  breaker.join(run.plan);
+  run.start();
+  Real const energy = run.energy();
+  run.to_the_end();
+  EXPECT_GT(breaker.released / energy, 0.01);
+  EXPECT_EQ(contact_of(run).overlapping_pairs(), 1);
+  // K_c = E is the stiffness of the link itself (nu = 0): nearly all of the energy stays.
+  EXPECT_LT(std::abs(run.dissipated()) / energy, 1e-3);
+  EXPECT_LT(run.simulation.ledger().conservation().energy, 0.02);
+}
+
 /// A flat block on a floor in a gravity that leans by `angle`: where it is and how fast after `time`.
 struct Slide {
   Real way, speed, defect;
