@@ -28,6 +28,7 @@ brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/v
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
 brisance_same_digest(bursting-wheel ${scenes}/bursting-wheel.toml 80 --set solid.body.0.particles=300)
 brisance_same_digest(break-up ${PROJECT_SOURCE_DIR}/tests/support/scenes/break-up.toml 44)
+brisance_same_digest(brick-wall ${scenes}/brick-wall.toml 200 --set output.interval=1 --set "solid.body.1.velocity=[60, 0, 0]")
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
@@ -65,6 +66,12 @@ brisance_expect(check_explosion-cylinder CODE 0 LABELS unit MESSAGE "coupling.cu
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --ranks 4)
 brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity +off: .*output.gauges +on.*416 particles.*charges +fluid.charge.0.: 1 kg of gas with 4.184 MJ above"
                 COMMAND ${program} check ${scenes}/explosion-box-3d.toml --ranks 2)
+
+brisance_expect(check_brick-wall CODE 0 LABELS unit MESSAGE "solid.contact +on.*contact +solid.contact.*372 particles, 833 links"
+                COMMAND ${program} check ${scenes}/brick-wall.toml --ranks 2)
+brisance_expect(scene_contact_in_a_gas CODE 2 LABELS unit ABSENT ${runs}/contact-gas
+                MESSAGE "solid.contact and coupling.cut_cells do not go together yet.*Leave contact out"
+                COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/contact-gas --set solid.contact.friction=0.3)
 
 brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)
