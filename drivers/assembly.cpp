@@ -12,9 +12,9 @@
 namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
-  static std::vector<std::string> const names{"fluid.euler",    "fluid.viscosity",    "fluid.gravity",
-                                              "solid.motion",   "solid.links",        "solid.gravity",
-                                              "solid.fracture", "coupling.cut_cells", "output.gauges"};
+  static std::vector<std::string> const names{
+      "fluid.euler",    "fluid.viscosity", "fluid.gravity",      "solid.motion",  "solid.links",         "solid.gravity", "solid.fracture",
+      "solid.supports", "solid.damping",   "coupling.cut_cells", "output.gauges", "output.solid_gauges"};
   return names;
 }
 
@@ -170,6 +170,10 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
     w.surface = std::make_shared<solid::Surface>(*w.mesh);
   }
+  if (coupled && w.mesh->periodic())
+    scene_error(scene.solid->at,
+                "coupling.cut_cells: a periodic body has no closed surface for a fluid to meet; end it with `symmetry` "
+                "planes instead, or leave out the coupling");
   if (coupled) require_clear_periodic_sides(scene, *grid, *w.mesh, *w.surface);
   if (coupled) require_gauges_in_the_gas(scene, *grid, *w.mesh);
   if (coupled) w.cut_cells_of_block = count_cut_cells(*grid, *w.mesh, *w.surface);
@@ -219,6 +223,13 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (!scene.output.gauge.empty()) {
     w.gauges = std::make_unique<fluid::Gauges>(scene.output.gauge, *scene.fluid, *w.flow, fluid_volumes(w));
     w.gauges->join(w.plan);
+  }
+  if (!scene.output.solid_gauge.empty()) {
+    std::vector<std::string> taken;
+    for (fluid::GaugeConfig const& gauge : scene.output.gauge) taken.push_back(gauge.name);
+    solid::check(scene.output.solid_gauge, taken, *w.mesh, scene.end_time);
+    w.solid_gauges = std::make_unique<solid::SolidGauges>(scene.output.solid_gauge, *w.solid, comm);
+    w.solid_gauges->join(w.plan);
   }
   TimeControl const control{scene.end_time, w.flow ? fluid::steps_per_pair(w.dimension) : 1,
                             scene.output.interval.value_or(0)};

@@ -135,6 +135,9 @@ int execute(Job const& job, parallel::Comm& comm) {
   }
   if (world->gauges)
     for (std::string const& remark : world->gauges->open(job.directory, simulation.clock())) spdlog::warn("{}", remark);
+  if (world->solid_gauges)
+    for (std::string const& remark : world->solid_gauges->open(job.directory, simulation.clock()))
+      spdlog::warn("{}", remark);
   Output output(*world, scene, job.directory);
   comm.barrier();
   if (fresh)
@@ -168,6 +171,7 @@ int execute(Job const& job, parallel::Comm& comm) {
     std::int64_t const retries = simulation.statistics().retries;
     simulation.pair();
     if (world->gauges) world->gauges->accept(simulation.clock());
+    if (world->solid_gauges) world->solid_gauges->accept(simulation.clock());
     if (simulation.statistics().retries > retries && warnings++ < 20)
       spdlog::warn("step {}: a pair of steps was redone with dt = {:.3g} s: {}", simulation.clock().step,
                    simulation.clock().dt, simulation.statistics().last_rejection);

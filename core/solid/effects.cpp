@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "core/solid/damping/damping.hpp"
 #include "core/solid/fracture/fracture.hpp"
 #include "core/solid/rows.hpp"
+#include "core/solid/supports/moving_supports.hpp"
 
 namespace brisance::solid {
 
@@ -49,12 +51,16 @@ void Dynamics::join(Plan& plan) {
   keep.read = [this](parallel::ArchiveReader& file) {
     solid_.unpack(solid_.owned_ids(), file.rows("solid/particles", Solid::row_size, rows_of(solid_.owned_ids())));
     solid_.exchange_pose();
-    if (!solid_.damageable()) return;
+    if (!solid_.damageable()) {
+      solid_.compute_strains();  // reactions and gauges read them before the next forces
+      return;
+    }
     std::vector<GlobalId> links;
     for (std::size_t k = 0; k < solid_.links(); ++k) links.push_back(static_cast<GlobalId>(solid_.mesh_link(k)));
     auto const intact = file.rows("solid/links_intact", 1, rows_of(links));
     for (std::size_t k = 0; k < links.size(); ++k)
       if (intact[k] != 1) solid_.weaken(k, intact[k]);
+    solid_.compute_strains();
   };
   keep.digest = [this](parallel::Digest& digest) { solid_.digest(digest); };
   plan.keep(std::move(keep));
@@ -83,6 +89,8 @@ std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Sol
             "solid.fracture breaks links, and the scene has none: add links = {} to [solid]");
     effects.push_back(std::make_unique<Fracture>(*config.fracture, solid, comm));
   }
+  if (!solid.mesh().motions.empty()) effects.push_back(std::make_unique<MovingSupports>(solid));
+  if (config.damping) effects.push_back(std::make_unique<Damping>(*config.damping, config, solid, comm));
   return effects;
 }
 

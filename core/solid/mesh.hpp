@@ -6,6 +6,7 @@
 
 #include "core/solid/polyhedron.hpp"
 #include "core/solid/solid_config.hpp"
+#include "core/solid/supports/rigid_motion.hpp"
 
 namespace brisance::solid {
 
@@ -41,10 +42,27 @@ struct Particle {
   Real mass = 0;              ///< kg
   Real effective_volume = 0;  ///< volume plus the share of free faces (theory/solid.md section 3), m3
   Vec3 velocity{}, spin{};    ///< initial; m/s, rad/s
+  Index motion = -1;          ///< prescribed: of Mesh::motions; -1: constant velocity
+};
+
+/// Where the far end of some links lies.  Source: theory/solid.md section 7.
+struct FarSide {
+  enum class Kind {
+    moving_wall,  ///< the link ends at a wall that moves: `motion` of Mesh::motions
+    mirror,       ///< at the mirror image of particle i in the plane through `point` with unit normal `vector`
+    shifted       ///< at the image of particle j shifted by `vector`
+  };
+  Kind kind = Kind::moving_wall;
+  Index motion = -1;
+  Vec3 point{}, vector{};
+  /// The image of a place, m.
+  Vec3 image(Vec3 const& x) const {
+    return kind == Kind::mirror ? x + (2 * dot(vector, point - x)) * vector : x + vector;
+  }
 };
 
 /// Elastic link of two particles (i < j) through a common face, or of a particle and the wall (j == wall) through a
-/// clamped one.
+/// clamped face or one on a plane of symmetry.
 struct Link {
   static constexpr GlobalId wall = -1;
   GlobalId i = 0, j = 0;
@@ -52,14 +70,16 @@ struct Link {
   Real rest_length = 0;        ///< D, m
   Real weight = 0.5;           ///< w_IJ
   Real stiffness = 0;          ///< k = 2 G S / D, N/m
+  Index far = -1;              ///< of Mesh::far_sides; -1: particle j where it is, or the wall at rest
 };
 
 /// Boundary face: no unbroken link goes through it.
 struct FreeFace {
   GlobalId particle = 0;
   int face = 0;
-  Real distance = 0;     ///< d_f from the pole, m
-  bool clamped = false;  ///< tied to the wall by a half link: boundary of the body, but no free face of the elastic law
+  Real distance = 0;  ///< d_f from the pole, m
+  bool clamped =
+      false;  ///< held by a link to a wall or mirror: boundary of the body, but no free face of the elastic law
 };
 
 struct Body {
@@ -81,6 +101,8 @@ struct Mesh {
   std::vector<std::size_t> first_link, link_of;  ///< links of particle p: link_of[first_link[p] .. first_link[p + 1])
   std::vector<std::size_t> first_free;           ///< free faces of particle p: [first_free[p], first_free[p + 1])
   Real torsion_ratio = 1;
+  std::vector<RigidMotion> motions;
+  std::vector<FarSide> far_sides;
 
   GlobalId size() const { return static_cast<GlobalId>(particles.size()); }
   Particle const& particle(GlobalId p) const { return particles[static_cast<std::size_t>(p)]; }
@@ -88,6 +110,19 @@ struct Mesh {
   Material const& material(GlobalId p) const { return materials[static_cast<std::size_t>(particle(p).material)]; }
   Mat3 inertia(GlobalId p) const { return shape(p).inertia(material(p).density); }
   FaceGeometry const& face(GlobalId p, int face) const { return shape(p).faces[static_cast<std::size_t>(face)]; }
+  FarSide const* far_side(Link const& l) const {
+    return l.far < 0 ? nullptr : &far_sides[static_cast<std::size_t>(l.far)];
+  }
+  bool is_mirror(Link const& l) const { return l.far >= 0 && far_side(l)->kind == FarSide::Kind::mirror; }
+  /// What is added to the place of particle j, m.
+  Vec3 shift(Link const& l) const {
+    return l.far >= 0 && far_side(l)->kind == FarSide::Kind::shifted ? far_side(l)->vector : Vec3{};
+  }
+  bool periodic() const {
+    for (FarSide const& side : far_sides)
+      if (side.kind == FarSide::Kind::shifted) return true;
+    return false;
+  }
   /// Links of a particle, in global order, as indices into `links`.
   std::span<std::size_t const> links_of(GlobalId p) const {
     auto const at = static_cast<std::size_t>(p);

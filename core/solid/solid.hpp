@@ -1,5 +1,6 @@
 // The solid of one rank: its particles, the ghosts they need, their links, and the verbs of a step.
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -75,6 +76,8 @@ class Solid {
   void finish_exchange();
   /// Internal forces and torques of owned particles at the current poses.
   void compute_forces();
+  /// The first part of compute_forces: images, opened volumes and strain pressures at the current poses.
+  void compute_strains();
   /// A step without a fluid: kick_and_drift, exchange, forces, half_kick.
   void step(Real dt);
 
@@ -82,6 +85,15 @@ class Solid {
   /// Expects: free faces of the mesh, by particle.  They enter forces and volumetric strains at the next
   /// compute_forces.
   void load_faces(std::span<FaceLoad const> loads);
+  struct LoadedFace {
+    Index particle;
+    Vec3 force, arm;  ///< body frame
+    Real stored;      ///< S d t_n^2 / 4G
+    int face;
+    Real normal;  ///< t_n, Pa
+  };
+  /// What load_faces was given, of the particles of this rank.
+  std::span<LoadedFace const> loaded_faces() const { return loaded_; }
 
   // Links of this rank, in global order: those of owned particles and of the first layer of ghosts.
   LinkStore const& link_store() const { return links_; }
@@ -96,6 +108,29 @@ class Solid {
   std::span<Wrench> internal() { return std::span(wrench_).first(static_cast<std::size_t>(count_)); }
   /// Rows of `width` doubles per particle (count() rows), from owners to ghosts. Collective among neighbours.
   void exchange_rows(std::span<double> rows, std::size_t width) { halo_.exchange_rows(comm_, rows, width); }
+
+  /// The motion of a wall in a step: its place and turn at the start and at the end, and the velocities between them.
+  struct WallStep {
+    Pose from, to;
+    Vec3 v, omega;
+  };
+  /// Of Mesh::motions: the walls that follow it go on from `from`; they arrive at `to` with the next drift.
+  void drive_walls(Index motion, WallStep const& step);
+  /// Gives an owned particle that is not free another velocity (m/s), spin (kg m2/s) and half velocity; what the change
+  /// takes is booked as impulse and work of its support.
+  void drive(Index particle, Vec3 const& v, Vec3 const& spin, HalfVelocity const& half);
+  /// Owned particles that are fixed or prescribed.
+  std::span<Index const> held() const { return held_; }
+  /// J w in the fixed frame at the present turn, kg m2/s, and the inverse, rad/s.
+  Vec3 spin_of(Index particle, Vec3 const& omega) const;
+  Vec3 omega_of(Index particle, Vec3 const& spin) const;
+
+  /// Poses of both ends of a link; the far one may be a wall or an image.
+  LinkEnds<double> ends(std::size_t link) const;
+  /// Force on particle i of a link and torques about its ends, at the last compute_forces.
+  LinkWrench<double> wrench_of(std::size_t link) const;
+  /// Energy of a link in this body, J: of a link to a mirror image the half on this side.
+  Real energy_of(std::size_t link) const;
 
   /// Makes room for damage; without it every link is whole for ever.
   void allow_damage() {
@@ -175,6 +210,8 @@ class Solid {
   void store_particles();
   void store_links();
   LinkRest<double> rest_of(Link const& link) const;
+  Index far_end(Link const& link);
+  void place_images();
   void set_bulk(GlobalId particle);
   template <bool with_kick, bool with_drift>
   void advance(Real dt);
@@ -193,7 +230,7 @@ class Solid {
   std::vector<Index> local_;
   Halo halo_;
 
-  // One entry more than particles: the wall, at rest at the origin, the far end of clamped faces.
+  // Behind the particles the far ends that are none: the wall at rest at the origin, walls that move, images.
   std::vector<Pose> pose_;
   std::vector<Wrench> wrench_;
   std::vector<double> opened_, pressure_;
@@ -207,18 +244,24 @@ class Solid {
   std::vector<Inertia> inertia_;
   std::vector<std::size_t> mesh_link_;  // links of this rank as indices into the mesh, in global order
   std::vector<Index> held_;             // owned fixed or prescribed particles
-  std::vector<std::size_t> clamps_;     // links to the wall whose particle is owned
+  std::vector<std::size_t> clamps_;     // links to a wall or mirror whose particle is owned
+  struct Wall {
+    Index entry, motion;
+    Vec3 v{}, omega{};  // between the ends of the step
+    Pose to{};
+  };
+  std::vector<Wall> walls_;  // those that move
+  struct Image {
+    Index entry, of, far;
+  };
+  std::vector<Image> images_;
+  std::map<std::pair<Index, Index>, Index> entry_of_;  // (far side, particle or -1) -> entry
 
   LinkStore links_;
   std::vector<double> intact_;  // 1 - d of the links; empty without damage
   std::size_t broken_ = 0;
   std::vector<GapBlock> gaps_;  // empty without damage
   bool volumetric_ = false;     // some lambda is not zero
-  struct LoadedFace {
-    Index particle;
-    Vec3 force, arm;  // body frame
-    Real stored;      // S d t_n^2 / 4G
-  };
   std::vector<LoadedFace> loaded_;
   Reactions reactions_;
   mutable std::vector<double> link_limits_;

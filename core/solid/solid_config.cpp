@@ -21,17 +21,6 @@ void MotionConfig::keys(Keys<MotionConfig>& k) {
   k("cfl", &MotionConfig::cfl, "1", "fraction of the guaranteed stable step").above(0).at_most(1);
 }
 
-void HoldConfig::keys(Keys<HoldConfig>& k) {
-  k("low", &HoldConfig::low, "m", "lower corner of the box").required();
-  k("high", &HoldConfig::high, "m", "upper corner of the box").required();
-}
-
-void PrescribedConfig::keys(Keys<PrescribedConfig>& k) {
-  k("low", &PrescribedConfig::low, "m", "lower corner of the box").required();
-  k("high", &PrescribedConfig::high, "m", "upper corner of the box").required();
-  k("velocity", &PrescribedConfig::velocity, "m/s", "constant velocity of the particles in the box").required();
-}
-
 void BodyConfig::keys(Keys<BodyConfig>& k) {
   k("name", &BodyConfig::name, "", "name in messages and results");
   k("material", &BodyConfig::material, "", "one of solid.material").required();
@@ -57,9 +46,18 @@ void BodyConfig::keys(Keys<BodyConfig>& k) {
   k("lloyd", &BodyConfig::lloyd, "", "voronoi: sweeps that move generators to the centres of their cells").at_least(0);
   k("velocity", &BodyConfig::velocity, "m/s", "initial velocity");
   k("spin", &BodyConfig::spin, "rad/s", "initial angular velocity about the centre of mass");
+  k("initial_velocity", &BodyConfig::initial_velocity, "", "velocities of parts of the body, or linear in space");
   k("hold", &BodyConfig::hold, "", "boxes: particles with their centre inside are fixed");
-  k("clamp", &BodyConfig::clamp, "", "boxes: boundary faces that lie inside are tied to a rigid wall by half links");
-  k("prescribed", &BodyConfig::prescribed, "", "boxes: particles with their centre inside move as prescribed");
+  k("clamp", &BodyConfig::clamp, "",
+    "boxes: boundary faces that lie inside are tied to a rigid wall, at rest or moving, by half links");
+  k("symmetry", &BodyConfig::symmetry, "",
+    "boxes: boundary faces that lie inside slide on their own plane, beyond which the body goes on as its mirror "
+    "image");
+  k("periodic", &BodyConfig::periodic, "",
+    "box of cartesian cells: directions in which its ends are linked to each other")
+      .one_of({"x", "y", "z"});
+  k("prescribed", &BodyConfig::prescribed, "",
+    "boxes: particles with their centre inside move as one rigid body, as prescribed");
 }
 
 void SolidConfig::keys(Keys<SolidConfig>& k) {
@@ -69,6 +67,7 @@ void SolidConfig::keys(Keys<SolidConfig>& k) {
   k("motion", &SolidConfig::motion, "", "time integration of the particles");
   k("gravity", &SolidConfig::gravity, "m/s2", "acceleration of gravity");
   k("fracture", &SolidConfig::fracture, "", "links weaken and break by the criteria of its laws");
+  k("damping", &SolidConfig::damping, "", "damping of the particles, such as for a state at rest under dead loads");
 }
 
 }  // namespace brisance::solid

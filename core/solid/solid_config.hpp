@@ -9,6 +9,8 @@
 #include "core/base/location.hpp"
 #include "core/base/vec3.hpp"
 #include "core/solid/fracture/fracture_config.hpp"
+#include "core/solid/damping/damping_config.hpp"
+#include "core/solid/supports/support_config.hpp"
 
 namespace brisance {
 template <class T>
@@ -36,18 +38,6 @@ struct MotionConfig {
   static void keys(Keys<MotionConfig>& k);
 };
 
-/// An axis-parallel box in the reference state.  Units: m.
-struct HoldConfig {
-  Vec3 low{}, high{};
-  static void keys(Keys<HoldConfig>& k);
-};
-
-/// Particles whose centre lies in the box move at a constant velocity.  Units: m, m/s.
-struct PrescribedConfig {
-  Vec3 low{}, high{}, velocity{};
-  static void keys(Keys<PrescribedConfig>& k);
-};
-
 /// One body: a shape, its dimensions, and the tessellation that cuts it into convex particles.
 /// In 2D bodies are prisms over 0 <= z <= 1 m; in 1D slabs over 0 <= y, z <= 1 m.
 struct BodyConfig {
@@ -66,8 +56,10 @@ struct BodyConfig {
   std::int64_t seed = 1;                           // voronoi: of the generators
   int lloyd = 20;                                  // voronoi: sweeps towards centroidal cells
   Vec3 velocity{}, spin{};                         // m/s; rad/s about the mass centre of the body
-  std::vector<HoldConfig> hold, clamp;             // particles with their centre, boundary faces lying, in a box
-  std::vector<PrescribedConfig> prescribed;
+  std::vector<InitialVelocityConfig> initial_velocity;
+  std::vector<HoldConfig> hold, symmetry;       // particles with their centre, boundary faces lying, in a box
+  std::vector<DrivenConfig> clamp, prescribed;  // boundary faces, particles
+  std::vector<std::string> periodic;            // axes
   Location at;
   static void keys(Keys<BodyConfig>& k);
 };
@@ -79,6 +71,7 @@ struct SolidConfig {
   MotionConfig motion;
   std::optional<Vec3> gravity;  ///< m/s2
   std::optional<FractureConfig> fracture;
+  std::optional<DampingConfig> damping;
   Location at;
   static void keys(Keys<SolidConfig>& k);
 };

@@ -82,6 +82,30 @@ void Solid::measure(Measures& to) const {
     if (face.particle < owned_) to.add(Measures::elastic, -face.stored);
 }
 
+Vec3 Solid::spin_of(Index particle, Vec3 const& omega) const {
+  Quaternion const& q = pose_[at(particle)].q;
+  return rotate(q, symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].tensor) * rotate(conjugate(q), omega));
+}
+
+Vec3 Solid::omega_of(Index particle, Vec3 const& spin) const {
+  Quaternion const& q = pose_[at(particle)].q;
+  return rotate(q, symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].inverse) * rotate(conjugate(q), spin));
+}
+
+LinkEnds<double> Solid::ends(std::size_t link) const {
+  return ends_of(pose_[at(links_.end_i(link))], pose_[at(links_.end_j(link))]);
+}
+
+LinkWrench<double> Solid::wrench_of(std::size_t link) const {
+  return link_wrench(links_.rest(link), ends(link), pressure_[at(links_.end_i(link))],
+                     pressure_[at(links_.end_j(link))]);
+}
+
+Real Solid::energy_of(std::size_t link) const {
+  Real const share = mesh_.is_mirror(mesh_.links[mesh_link_[link]]) ? 0.5 : 1;
+  return share * link_energy(links_.rest(link), ends(link));
+}
+
 Reactions Solid::take_reactions() {
   Reactions const taken = reactions_;
   reactions_ = {};

@@ -25,14 +25,14 @@ struct End {
   FaceGeometry const* face;
   Vec3 arm, normal;
   Real weight;
-  GlobalId other;  ///< Link::wall at a wall
+  GlobalId other;  ///< whose strain the link enters: at a mirror the particle itself, Link::wall at a wall
 };
 
 End end_of(Mesh const& mesh, Link const& link, GlobalId p) {
   FaceGeometry const& face = mesh.face(link.i, link.face_i);
-  if (link.i == p) return {&face, face.centroid, face.normal, link.weight, link.j};
-  return {&face, mesh.particle(link.i).centre + face.centroid - mesh.particle(p).centre, -face.normal, 1 - link.weight,
-          link.i};
+  if (link.i == p) return {&face, face.centroid, face.normal, link.weight, mesh.is_mirror(link) ? p : link.j};
+  return {&face, mesh.particle(link.i).centre + face.centroid - mesh.shift(link) - mesh.particle(p).centre,
+          -face.normal, 1 - link.weight, link.i};
 }
 
 Vector6 generalized_normal(End const& e) {
