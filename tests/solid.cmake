@@ -14,3 +14,6 @@ brisance_test(solid_fracture_parallel SOURCES parallel/fracture_test.cpp LINKS b
 brisance_test(solid_restart SOURCES restart/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS restart)
 brisance_test(solid_fracture SOURCES verification/solid/fracture_test.cpp verification/solid/fracture_account_test.cpp
   LINKS brisance::solid LABELS verification)
+brisance_test(solid_supports SOURCES verification/solid/supports_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_damping SOURCES verification/solid/damping_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_supports_parallel SOURCES parallel/supports_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)

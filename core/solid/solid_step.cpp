@@ -57,6 +57,7 @@ struct Freedoms {
 
 template <bool with_kick, bool with_drift>
 void Solid::advance(Real dt) {
+  if constexpr (with_kick) book_reactions(0.5 * dt);  // at the poses of the forces, before any drift
   Freedoms const freedoms(dimension_);
   Vec3 const g = gravity_.value_or(Vec3{});
   Lanes const fall = four_values(0.5 * dt * g.x, 0.5 * dt * g.y, 0.5 * dt * g.z, 0.0);
@@ -121,7 +122,6 @@ void Solid::advance(Real dt) {
       }
     }
   }
-  if constexpr (with_kick) book_reactions(0.5 * dt);
   if constexpr (with_drift)
     for (Wall const& wall : walls_) pose_[static_cast<std::size_t>(wall.entry)] = wall.to;
 }

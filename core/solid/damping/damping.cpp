@@ -95,16 +95,16 @@ void Damping::join(Plan& plan) {
     impulse_ = {};
   };
   keep.write = [this](parallel::ArchiveWriter& file) {
-    file.attribute("solid.damping.kinetic", state_.kinetic);
     file.attribute("solid.damping.largest_force", state_.largest_force);
+    file.attribute("solid.damping.stop_again", static_cast<std::int64_t>(state_.stop_again));
     file.attribute("solid.damping.done", static_cast<std::int64_t>(state_.done));
   };
   keep.read = [this](parallel::ArchiveReader& file) {
-    state_ = {file.real("solid.damping.kinetic"), file.real("solid.damping.largest_force"),
+    state_ = {file.real("solid.damping.largest_force"), file.integer("solid.damping.stop_again") != 0,
               file.integer("solid.damping.done") != 0};
   };
   keep.digest = [this](parallel::Digest& digest) {
-    std::array<double, 3> const bits{state_.kinetic, state_.largest_force, state_.done ? 1.0 : 0.0};
+    std::array<double, 3> const bits{state_.largest_force, state_.stop_again ? 1.0 : 0.0, state_.done ? 1.0 : 0.0};
     if (comm_.rank() == 0) digest.add(damping_kind, 0, bits);
   };
   plan.keep(std::move(keep));
@@ -175,7 +175,12 @@ void Damping::keep_share(Real share) {
 
 void Damping::half_decay(Real dt) { keep_share(std::exp(-0.5 * *config_.rate * dt)); }
 
-Real Damping::kinetic_energy() const {
+Vec3 Damping::net_force(Index particle) const {
+  return solid_.internal()[at(particle)].force + solid_.load()[at(particle)].force +
+         solid_.mesh().particle(solid_.id(particle)).mass * gravity_;
+}
+
+Real Damping::power() const {
   Mesh const& mesh = solid_.mesh();
   std::vector<BodyMotion> const bodies = body_motions();
   parallel::ExactSum sum;
@@ -184,31 +189,31 @@ Real Damping::kinetic_energy() const {
     if (m.turns == 0) continue;
     Particle const& p = mesh.particle(solid_.id(l));
     BodyMotion const& body = bodies[at(p.body)];
-    Vec3 const v = m.v - body.v - cross(body.omega, solid_.pose()[at(l)].x - body.centre);
-    Vec3 const spin = m.spin - solid_.spin_of(l, body.omega);
-    sum.add(0.5 * (p.mass * norm2(v) + dot(spin, solid_.omega_of(l, spin))));
+    Vec3 const arm = solid_.pose()[at(l)].x - body.centre, w = body.omega;
+    // In the frame of the body centrifugal forces work too; those of its accelerations do not, nor does Coriolis'.
+    Vec3 const force = net_force(l) - p.mass * cross(w, cross(w, arm));
+    Vec3 const torque = solid_.internal()[at(l)].torque + solid_.load()[at(l)].torque - cross(w, solid_.spin_of(l, w));
+    sum.add(dot(force, m.v - body.v - cross(w, arm)) + dot(torque, solid_.omega_of(l, m.spin) - w));
   }
   comm_.sum(std::span(&sum, 1));
   return sum.value();
 }
 
 void Damping::stop_at_maximum() {
-  Real const energy = kinetic_energy();
-  if (energy < state_.kinetic) {
-    keep_share(0);
-    state_.kinetic = 0;
-  } else {
-    state_.kinetic = energy;
-  }
+  // By the power, not by comparing energies: that sees a maximum a step late, when fast modes have swung through and
+  // have no kinetic energy left to take away.
+  // Modes whose quarter period is about one step stand still when they are caught after two: the stop one step after
+  // each stop takes their energy, and costs the slow modes one step.
+  bool const falls = !state_.stop_again && power() < 0;
+  if (falls || state_.stop_again) keep_share(0);
+  state_.stop_again = falls;
 }
 
 void Damping::watch_residual() {
   parallel::ExactSum sum;
   for (Index l = 0; l < solid_.owned(); ++l) {
     if (solid_.motion()[at(l)].turns == 0) continue;
-    Vec3 const force = solid_.internal()[at(l)].force + solid_.load()[at(l)].force +
-                       solid_.mesh().particle(solid_.id(l)).mass * gravity_;
-    sum.add(norm2(force));
+    sum.add(norm2(net_force(l)));
   }
   comm_.sum(std::span(&sum, 1));
   Real const force = std::sqrt(sum.value());

@@ -17,7 +17,7 @@ class Damping : public Effect {
 
   /// Collective when the damping is kinetic or relative to bodies. Half a step of viscous decay.
   void half_decay(Real dt);
-  /// Collective. Takes all motion away when the kinetic energy has passed a maximum.
+  /// Collective. Takes all motion away when the kinetic energy falls: it has just passed a maximum.
   void stop_at_maximum();
   /// Collective. Has the net force on free particles fallen below the residual?
   void watch_residual();
@@ -31,11 +31,13 @@ class Damping : public Effect {
   };
   std::vector<BodyMotion> body_motions() const;
   void keep_share(Real share);
-  Real kinetic_energy() const;
+  Vec3 net_force(Index particle) const;
+  /// What raises the kinetic energy relative to the frame, W; of all ranks.
+  Real power() const;
 
   struct State {
-    Real kinetic = 0;        ///< J, relative to the frame, at the last step
-    Real largest_force = 0;  ///< N, root of the sum of squares over free particles, so far
+    Real largest_force = 0;   ///< N, root of the sum of squares over free particles, so far
+    bool stop_again = false;  ///< kinetic: all motion stopped in the last step
     bool done = false;
   };
   DampingConfig config_;

@@ -1,0 +1,353 @@
+// Supports of theory/solid.md section 7: prescribed motion, walls, planes of symmetry, periodic bodies.
+#include "core/solid/supports/moving_supports.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/support/evidence.hpp"
+#include "tests/support/solids.hpp"
+
+namespace brisance::solid {
+namespace {
+
+using testing::box;
+using testing::Lone;
+using testing::one_material;
+using testing::Random;
+
+constexpr Real pi = std::numbers::pi;
+
+/// A lone solid with its moving supports.
+struct Driven : Lone {
+  MovingSupports supports{solid};
+  Real time = 0;
+  explicit Driven(SolidConfig const& config, int dimension = 3) : Lone(config, dimension) {}
+  void step(Real dt) {
+    supports.set_off(time, dt);
+    solid.step(dt);
+    supports.arrive(time += dt);
+  }
+};
+
+DrivenConfig driven(Vec3 const& low, Vec3 const& high, std::vector<TimedMotion> history, Vec3 const& centre = {}) {
+  DrivenConfig box{low, high};
+  box.history = std::move(history);
+  box.centre = centre;
+  return box;
+}
+
+TEST(RigidMotion, IsTheIntegralOfItsHistory) {
+  DrivenConfig const config = driven({}, {},
+                                     {{-0.5, {9, 9, 9}, {0.2, 0, 0}},
+                                      {0.25, {1, 2, 0}, {0.5, 1, 0}},
+                                      {1, {0, 1, -1}, {-1, 0.3, 2}},
+                                      {1.2, {0, 0, 3}, {0, 0, -0.4}}},
+                                     {1, 1, 2});
+  RigidMotion const motion(config, 3);
+  RigidMotion::State const start = motion.at(0);
+  EXPECT_EQ(start.x, (Vec3{1, 1, 2}));
+  EXPECT_EQ(start.q, Quaternion{});
+  Vec3 x = start.x;
+  Quaternion q;
+  int const n = 60000;
+  Real const dt = 1.8 / n;
+  for (int k = 0; k < n; ++k) {
+    RigidMotion::State const middle = motion.at((k + 0.5) * dt);
+    x += dt * middle.v;
+    q = testing::rotation(dt * middle.omega) * q;
+  }
+  RigidMotion::State const end = motion.at(1.8);
+  EXPECT_NEAR(norm(end.x - x), 0, 1e-8);
+  EXPECT_NEAR(norm((conjugate(end.q) * q).v), 0, 1e-9);
+  EXPECT_EQ(end.v, (Vec3{0, 0, 3}));
+}
+
+TEST(MovingSupports, LeadParticlesToTheirPoseAndBalance) {
+  SolidConfig config = one_material(1, 1, 0.3);
+  config.body.push_back(box({0, 0, 0}, {5, 2, 2}, {5, 2, 2}));
+  std::vector<TimedMotion> const twist{{0, {}, {}}, {4, {0.01, 0, 0.02}, {0.03, 0.01, 0}}, {9, {0, 0.01, 0}, {}}};
+  config.body[0].prescribed.push_back(driven({4, 0, 0}, {5, 2, 2}, twist, {4, 1, 1}));
+  config.body[0].clamp.push_back(
+      driven({0, 0, 0}, {0, 2, 2}, {{0, {}, {}}, {5, {0, 0, 0.01}, {0, 0.02, 0}}}, {0, 1, 1}));
+  auto defects = [&](Real dt) {
+    Driven bar(config);
+    auto const before = bar.measure();
+    Real const energy = bar.energy();
+    for (int n = 0; n < static_cast<int>(10 / dt + 0.5); ++n) bar.step(dt);
+    auto const after = bar.measure();
+    Reactions const support = bar.solid.take_reactions();
+    Real const scale = after.value(Measures::momentum_scale);
+    EXPECT_LT(norm(after.vector(Measures::momentum) - before.vector(Measures::momentum) - support.impulse()),
+              1e-14 * scale);
+    for (Index const p : bar.solid.held()) {
+      Particle const& particle = bar.mesh.particle(bar.solid.id(p));
+      RigidMotion const& motion = bar.mesh.motions[static_cast<std::size_t>(particle.motion)];
+      RigidMotion::State const now = motion.at(bar.time);
+      Pose const& pose = bar.solid.pose()[static_cast<std::size_t>(p)];
+      EXPECT_NEAR(norm(pose.x - now.place(particle.centre - motion.centre())), 0, 1e-14);
+      EXPECT_NEAR(norm((conjugate(pose.q) * now.q).v), 0, 1e-14);
+    }
+    return std::abs(bar.energy() - energy - support.work()) / support.work();
+  };
+  Real const coarse = defects(0.2), fine = defects(0.1);
+  EXPECT_LT(coarse, 2e-3);
+  EXPECT_NEAR(coarse / fine, 4, 0.6);
+}
+
+TEST(MovingSupports, WorkBalancesToRoundingWhereForcesAreLinear) {
+  // H - work = dt^2/8 sum |F|^2/m of free particles, exactly (theory/solid.md section 10).
+  for (bool wall : {false, true}) {
+    SolidConfig config = one_material(1, 1, 0.3);
+    config.body.push_back(box({0, 0, 0}, {12, 1, 1}, {12, 1, 1}));
+    std::vector<TimedMotion> const push{{0, {}, {}}, {2, {0.02, 0, 0}, {}}, {5, {-0.01, 0, 0}, {}}, {7, {}, {}}};
+    if (wall)
+      config.body[0].clamp.push_back(driven({0, 0, 0}, {0, 1, 1}, push));
+    else
+      config.body[0].prescribed.push_back(driven({0, 0, 0}, {1, 1, 1}, push));
+    Driven rod(config);
+    Real const dt = 0.3;
+    auto shadow = [&] {
+      Real sum = 0;
+      for (Index p = 0; p < rod.solid.owned(); ++p)
+        sum += rod.solid.motion()[static_cast<std::size_t>(p)].inverse_mass *
+               norm2(rod.solid.internal()[static_cast<std::size_t>(p)].force);
+      return dt * dt / 8 * sum;
+    };
+    Real const before = rod.energy() - shadow();
+    for (int n = 0; n < 100; ++n) rod.step(dt);
+    Real const work = rod.solid.take_reactions().work();
+    EXPECT_GT(work, 1e-5);
+    EXPECT_NEAR((rod.energy() - shadow() - before) / work, 1, 1e-11) << wall;
+  }
+}
+
+/// L2 error of the velocity of a rod whose end moves by a history, against v(t - x/c).
+Real wave_error(Index cells, bool wall) {
+  SolidConfig config = one_material(1, 1, 0);
+  config.body.push_back(box({0, 0, 0}, {40, 1, 1}, {cells, 1, 1}));
+  auto velocity = [](Real t) { return t <= 0 || t >= 20 ? 0.0 : 1e-4 * square(std::sin(pi * t / 20)); };
+  std::vector<TimedMotion> history;
+  for (int k = 0; k <= 400; ++k) history.push_back({k * 0.05, {velocity(k * 0.05), 0, 0}, {}});
+  Real const h = 40.0 / cells;
+  if (wall)
+    config.body[0].clamp.push_back(driven({0, 0, 0}, {0, 1, 1}, history));
+  else
+    config.body[0].prescribed.push_back(driven({0, 0, 0}, {h, 1, 1}, history));
+  Driven rod(config);
+  int const steps = static_cast<int>(std::ceil(32 / rod.solid.stable_step()));
+  for (int n = 0; n < steps; ++n) rod.step(32.0 / steps);
+  Real error = 0, size = 0;
+  for (Index p = 0; p < rod.solid.owned(); ++p) {
+    Real const x = rod.mesh.particle(rod.solid.id(p)).centre.x - (wall ? 0 : 0.5 * h);
+    Real const exact = velocity(32 - x), got = rod.solid.motion()[static_cast<std::size_t>(p)].v.x;
+    error += square(got - exact);
+    size += square(exact);
+  }
+  return std::sqrt(error / size);
+}
+
+TEST(MovingSupports, DriveTheExactWaveIntoARod) {
+  for (bool wall : {false, true}) {
+    std::string const variant = wall ? "clamped face" : "first particle";
+    Real const coarse = wave_error(40, wall), fine = wave_error(80, wall);
+    EXPECT_TRUE(evidence::at_most("S8", "driven rod", variant, "L2 error of the velocity, 80 cells", fine, 5e-3));
+    EXPECT_TRUE(evidence::at_most("S8", "driven rod", variant, "error of 80 over 40 cells", fine / coarse, 1 / 3.3));
+  }
+}
+
+/// -dE/ds of a change, by sixth-order differences.
+template <class Change>
+Real slope(Lone& body, Change change) {
+  Real const h = 2e-3;
+  Solid::Saved saved;
+  body.solid.save(saved);
+  auto energy = [&](Real s) {
+    body.solid.restore(saved);
+    change(s);
+    body.solid.compute_forces();
+    return body.measure().value(Measures::elastic);
+  };
+  Real const value =
+      -(45 * (energy(h) - energy(-h)) - 9 * (energy(2 * h) - energy(-2 * h)) + (energy(3 * h) - energy(-3 * h))) /
+      (60 * h);
+  body.solid.restore(saved);
+  return value;
+}
+
+TEST(Supports, ForcesAreTheGradientAtMirrorsWallsAndPeriodicSides) {
+  SolidConfig config = one_material(1, 1, 0.3);
+  BodyConfig body = box({0, 0, 0}, {2, 2, 2}, {2, 2, 2});
+  body.periodic = {"x"};
+  body.symmetry.push_back({{0, 0, 0}, {2, 0, 2}});
+  body.symmetry.push_back({{0, 0, 0}, {2, 2, 0}});
+  body.clamp.push_back(driven({0, 0, 2}, {2, 2, 2}, {{0, {0.1, 0.05, -0.1}, {0.2, 0.1, 0.3}}}, {1, 1, 2}));
+  config.body.push_back(body);
+  BodyConfig pebble =
+      box({5, 0, 0}, {7, 2, 2}, {1, 1, 1});  // oblique planes: mirrors of a Voronoi body are its flat sides
+  pebble.name = "pebble";
+  pebble.tessellation = "voronoi";
+  pebble.particles = 8;
+  pebble.symmetry.push_back({{5, 0, 0}, {5, 2, 2}});
+  config.body.push_back(pebble);
+  Lone solid(config);
+  EXPECT_LT(solid.measure().value(Measures::elastic), 1e-20);
+  MovingSupports(solid.solid).place_walls(0.7);
+  Random random(5);
+  for (Pose& p : solid.solid.pose()) {
+    p.x += 0.3 * random.vector();
+    p.q = testing::rotation(0.5 * random.vector());
+  }
+  solid.solid.compute_forces();
+  std::vector<Wrench> const exact(solid.solid.internal().begin(), solid.solid.internal().end());
+  Real error = 0, scale = 0;
+  for (Index p = 0; p < solid.solid.owned(); ++p) {
+    auto const at = static_cast<std::size_t>(p);
+    for (int d = 0; d < 3; ++d) {
+      Vec3 unit{};
+      unit[d] = 1;
+      Real const f = slope(solid, [&](Real s) { solid.solid.pose()[at].x += s * unit; });
+      Real const m = slope(solid, [&](Real s) {
+        Quaternion& q = solid.solid.pose()[at].q;
+        q = testing::rotation(s * unit) * q;
+      });
+      error = max(error, max(std::abs(f - exact[at].force[d]), std::abs(m - exact[at].torque[d])));
+      scale = max(scale, max(std::abs(exact[at].force[d]), std::abs(exact[at].torque[d])));
+    }
+  }
+  EXPECT_TRUE(evidence::at_most("S1", "gradient", "mirrors, moving wall, periodic", "max |F + grad E| / max |F|",
+                                error / scale, 1e-8));
+}
+
+TEST(Symmetry, AQuarterMovesAsTheWholeBody) {
+  for (std::string const tessellation : {"cartesian"}) {
+    auto config_of = [&](Real low_y, Real low_z, std::array<Index, 3> const& cells) {
+      SolidConfig config = one_material(1, 1, 0.35);
+      BodyConfig b = box({0, low_y, low_z}, {5, 2, 2}, cells);
+      b.tessellation = tessellation;
+      b.clamp.push_back({{0, -2, -2}, {0, 2, 2}});
+      b.initial_velocity.push_back({Vec3{3, -9, -9}, Vec3{9, 9, 9}, {0.04, 0, 0}});
+      b.initial_velocity.push_back({Vec3{1, 0, -9}, Vec3{9, 9, 9}, {0, 0.05, 0}});
+      b.initial_velocity.push_back({Vec3{1, -9, -9}, Vec3{9, 0, 9}, {0, -0.05, 0}});
+      b.initial_velocity.push_back({{}, {}, {}, {}, {0, 0, 0, 0, 0, 0, 0, 0, -0.03}});
+      config.body.push_back(b);
+      return config;
+    };
+    SolidConfig whole_config = config_of(-2, -2, {5, 4, 4}), quarter_config = config_of(0, 0, {5, 2, 2});
+    quarter_config.body[0].symmetry.push_back({{0, 0, 0}, {5, 0, 2}});
+    quarter_config.body[0].symmetry.push_back({{0, 0, 0}, {5, 2, 0}});
+    Lone whole(whole_config), quarter(quarter_config);
+    Real const dt = whole.solid.stable_step();
+    EXPECT_NEAR(quarter.solid.stable_step() / dt, 1, 1e-12);
+    Real largest = 0, turned = 0;
+    for (int n = 0; n < 200; ++n) whole.solid.step(dt), quarter.solid.step(dt);
+    for (Index p = 0; p < quarter.solid.owned(); ++p) {
+      Vec3 const x = quarter.mesh.particle(quarter.solid.id(p)).centre;
+      for (Index q = 0; q < whole.solid.owned(); ++q) {
+        if (norm(whole.mesh.particle(whole.solid.id(q)).centre - x) > 1e-9) continue;
+        Pose const &a = quarter.solid.pose()[static_cast<std::size_t>(p)],
+                   &b = whole.solid.pose()[static_cast<std::size_t>(q)];
+        largest = max(largest, max(norm(a.x - b.x), norm((conjugate(a.q) * b.q).v)));
+        turned = max(turned, norm(a.q.v));
+      }
+    }
+    EXPECT_GT(turned, 1e-2);  // a case that bends
+    EXPECT_LT(largest, 1e-12);
+    EXPECT_NEAR(quarter.measure().value(Measures::elastic) * 4 / whole.measure().value(Measures::elastic), 1, 1e-12);
+    EXPECT_NEAR(quarter.measure().value(Measures::kinetic) * 4 / whole.measure().value(Measures::kinetic), 1, 1e-12);
+    Reactions const support = quarter.solid.take_reactions(), all = whole.solid.take_reactions();
+    EXPECT_NEAR(4 * support.impulse().x / all.impulse().x, 1, 1e-12);
+    Vec3 const momentum = quarter.measure().vector(Measures::momentum);
+    auto const start = Lone(quarter_config).measure().vector(Measures::momentum);
+    EXPECT_LT(norm(momentum - start - support.impulse()), 1e-13);
+    EXPECT_EQ(support.work(), 0);
+  }
+}
+
+/// What is left of the frequency of a standing wave after the time error of Verlet is taken out.
+struct Wave {
+  Real omega = 0, drift = 0;  ///< drift: change of the estimate during the run
+};
+
+Wave periodic_wave(Real nu, Index cells, bool shear, Real turn) {
+  SolidConfig config = one_material(1, 1, nu);
+  Real const length = cells;
+  config.body.push_back(box({0, 0, 0}, {length, 2, 2}, {cells, 2, 2}));
+  config.body[0].periodic = {"x", "y", "z"};
+  Lone solid(config);
+  Real const k = 2 * pi / length, dt = 0.5 * solid.solid.stable_step();
+  auto place = [&](Index p) { return solid.mesh.particle(solid.solid.id(p)).centre.x; };
+  for (Index p = 0; p < solid.solid.owned(); ++p) {
+    Motion& m = solid.solid.motion()[static_cast<std::size_t>(p)];
+    (shear ? m.v.y : m.v.x) = 1e-6 * std::cos(k * place(p));
+    if (shear) m.spin.z = 1e-6 * turn * std::sin(k * place(p)) / 6;
+  }
+  auto amplitude = [&] {
+    Real sum = 0;
+    for (Index p = 0; p < solid.solid.owned(); ++p) {
+      Motion const& m = solid.solid.motion()[static_cast<std::size_t>(p)];
+      sum += (shear ? m.v.y : m.v.x) * std::cos(k * place(p));
+    }
+    return sum;
+  };
+  std::vector<Real> history{amplitude()};
+  for (int n = 0; n < 40; ++n) {
+    solid.solid.step(dt);
+    history.push_back(amplitude());
+  }
+  auto omega_at = [&](std::size_t n) {
+    Real const half = std::sqrt(max(0, 0.5 * (1 - (history[n + 1] + history[n - 1]) / (2 * history[n]))));
+    return 2 / dt * half;  // sin(omega_num dt/2) = omega dt/2
+  };
+  return {omega_at(2), std::abs(omega_at(12) / omega_at(2) - 1)};
+}
+
+TEST(Periodic, WavesHaveTheFrequencyOfTheLattice) {
+  for (Real nu : {0.0, 0.25, 0.3, 0.45}) {
+    std::vector<Index> const sizes = evidence::full() ? std::vector<Index>{10, 20, 40} : std::vector<Index>{10};
+    for (Index const cells : sizes) {
+      Real const g = 1 / (2 * (1 + nu)), lame = 2 * g * nu / (1 - 2 * nu);
+      Real const s = std::sin(pi / cells), c = std::cos(pi / cells);
+      std::string const variant = "nu " + std::to_string(nu).substr(0, 4) + ", " + std::to_string(cells) + " cells";
+      Real const p_exact = 2 * s * std::sqrt(2 * g + lame * c * c);
+      Wave const p = periodic_wave(nu, cells, false, 0);
+      EXPECT_TRUE(evidence::near("S6", "P wave [100]", variant, "omega over that of the lattice - 1",
+                                 p.omega / p_exact - 1, 0, 1e-6));
+      // Lower branch of (8 G s^2 - w2)(b - w2/6) = (4 G s c)^2.
+      Real const a = 8 * g * s * s, b = 2 * g * (1 + c * c) + s * s / 3, m = 4 * g * s * c;
+      Real const sum = a + 6 * b, product = 6 * (a * b - m * m);
+      Real const w2 = 0.5 * (sum - std::sqrt(sum * sum - 4 * product));
+      // The turn of this branch; its sign belongs to the choice of sine and cosine.
+      Real const turn = (a - w2) / m * 2;
+      Wave best;
+      best.drift = 1;
+      for (Real const sign : {1.0, -1.0, 0.5, -0.5}) {
+        Wave const wave = periodic_wave(nu, cells, true, sign * turn);
+        if (wave.drift < best.drift) best = wave;
+      }
+      EXPECT_TRUE(evidence::near("S7", "S wave [100]", variant, "omega over that of the lattice - 1",
+                                 best.omega / std::sqrt(w2) - 1, 0, 1e-6));
+    }
+  }
+}
+
+TEST(InitialVelocity, OfPartsAndLinearInSpace) {
+  SolidConfig config = one_material(1, 1, 0);
+  config.body.push_back(box({0, 0, 0}, {4, 1, 1}, {4, 1, 1}));
+  config.body[0].velocity = {1, 0, 0};
+  config.body[0].initial_velocity.push_back({Vec3{0, 0, 0}, Vec3{2, 1, 1}, {0.5, 0, 0}});
+  // Turn about z with 2 rad/s and stretch along x with 3 1/s, about (1, 0.5, 0.5).
+  config.body[0].initial_velocity.push_back(
+      {Vec3{2, 0, 0}, Vec3{4, 1, 1}, {}, {1, 0.5, 0.5}, {3, -2, 0, 2, 0, 0, 0, 0, 0}});
+  Lone rod(config);
+  for (Index p = 0; p < 4; ++p) {
+    Particle const& of = rod.mesh.particle(p);
+    bool const first = of.centre.x < 2;
+    Real const arm = of.centre.x - 1;
+    EXPECT_NEAR(norm(of.velocity - (first ? Vec3{1.5, 0, 0} : Vec3{1 + 3 * arm, 2 * arm, 0})), 0, 1e-14);
+    EXPECT_EQ(of.spin, (first ? Vec3{} : Vec3{0, 0, 2}));
+  }
+}
+
+}  // namespace
+}  // namespace brisance::solid
