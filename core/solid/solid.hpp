@@ -125,12 +125,14 @@ class Solid {
   Vec3 spin_of(Index particle, Vec3 const& omega) const;
   Vec3 omega_of(Index particle, Vec3 const& spin) const;
 
+  /// The particle at the far end of a link: behind an image the particle it shows; count() for walls.
+  Index end_j(std::size_t link) const;
   /// Poses of both ends of a link; the far one may be a wall or an image.
-  LinkEnds<double> ends(std::size_t link) const;
+  LinkEnds<double> link_ends(std::size_t link) const;
   /// Force on particle i of a link and torques about its ends, at the last compute_forces.
   LinkWrench<double> wrench_of(std::size_t link) const;
   /// Energy of a link in this body, J: of a link to a mirror image the half on this side.
-  Real energy_of(std::size_t link) const;
+  Real link_energy(std::size_t link) const;
 
   /// Makes room for damage; without it every link is whole for ever.
   void allow_damage() {

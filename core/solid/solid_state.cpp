@@ -92,18 +92,26 @@ Vec3 Solid::omega_of(Index particle, Vec3 const& spin) const {
   return rotate(q, symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].inverse) * rotate(conjugate(q), spin));
 }
 
-LinkEnds<double> Solid::ends(std::size_t link) const {
+Index Solid::end_j(std::size_t link) const {
+  Index const entry = links_.end_j(link);
+  if (entry < count_) return entry;
+  for (Image const& image : images_)
+    if (image.entry == entry) return image.of;
+  return count_;
+}
+
+LinkEnds<double> Solid::link_ends(std::size_t link) const {
   return ends_of(pose_[at(links_.end_i(link))], pose_[at(links_.end_j(link))]);
 }
 
 LinkWrench<double> Solid::wrench_of(std::size_t link) const {
-  return link_wrench(links_.rest(link), ends(link), pressure_[at(links_.end_i(link))],
+  return link_wrench(links_.rest(link), link_ends(link), pressure_[at(links_.end_i(link))],
                      pressure_[at(links_.end_j(link))]);
 }
 
-Real Solid::energy_of(std::size_t link) const {
+Real Solid::link_energy(std::size_t link) const {
   Real const share = mesh_.is_mirror(mesh_.links[mesh_link_[link]]) ? 0.5 : 1;
-  return share * link_energy(links_.rest(link), ends(link));
+  return share * solid::link_energy(links_.rest(link), link_ends(link));
 }
 
 Reactions Solid::take_reactions() {

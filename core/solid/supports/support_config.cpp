@@ -70,7 +70,7 @@ void check_supports(BodyConfig const& body, int dimension) {
                 std::to_string(field.gradient.size()) + ".");
   for (std::string const& axis : body.periodic) {
     int const d = axis[0] - 'x';
-    require(body.shape == "box" && body.tessellation == "cartesian", body.at,
+    require(body.shape == "box" && body.tessellation != "voronoi", body.at,
             who + ": only a box of cartesian cells can be periodic: its opposite faces must match.");
     require(d < dimension, body.at,
             who + " is periodic along " + axis + ", which has no cells in " + std::to_string(dimension) +
