@@ -101,6 +101,7 @@ std::string why_off(std::string const& effect, Scene const& scene) {
                     : domain == "solid"  ? scene.solid.has_value()
                     : domain == "output" ? true
                                          : scene.coupling.has_value();
+  if (open && effect == "solid.supports") return "no support moves by a history or turns";
   return open ? effect.substr(effect.find('.') + 1) + " is not in [" + domain + "]" : "no [" + domain + "]";
 }
 

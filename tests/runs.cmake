@@ -29,6 +29,7 @@ brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid
 brisance_same_digest(bursting-wheel ${scenes}/bursting-wheel.toml 80 --set solid.body.0.particles=300)
 brisance_same_digest(break-up ${PROJECT_SOURCE_DIR}/tests/support/scenes/break-up.toml 44)
 brisance_same_digest(supports ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports.toml 120)
+brisance_same_digest(paddle ${PROJECT_SOURCE_DIR}/tests/support/scenes/paddle.toml 40)
 brisance_same_digest(kinetic ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports.toml 120
                      --set "solid.damping={law=\"kinetic\", residual=1e-3}")
 
@@ -40,6 +41,7 @@ function(brisance_same_gauges name scene steps)
 endfunction()
 brisance_same_gauges(gauges ${PROJECT_SOURCE_DIR}/tests/support/scenes/gauges.toml 160)
 brisance_same_gauges(supports ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports.toml 120)
+brisance_same_gauges(paddle ${PROJECT_SOURCE_DIR}/tests/support/scenes/paddle.toml 40)
 brisance_same_gauges(merged ${PROJECT_SOURCE_DIR}/tests/support/scenes/gauges-in-a-box.toml 24)
 brisance_same_gauges(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 40)
 brisance_same_gauges(explosion-box-3d ${scenes}/explosion-box-3d.toml 12 --set fluid.block=32 --set output.interval=1e-5
