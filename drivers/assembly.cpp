@@ -170,10 +170,16 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
     w.surface = std::make_shared<solid::Surface>(*w.mesh);
   }
-  if (coupled && w.mesh->periodic())
-    scene_error(scene.solid->at,
-                "coupling.cut_cells: a periodic body has no closed surface for a fluid to meet; end it with `symmetry` "
-                "planes instead, or leave out the coupling");
+  if (coupled && w.mesh->has(solid::FarSide::Kind::shifted))
+    scene_error(
+        scene.solid->at,
+        "coupling.cut_cells: a periodic body has no closed surface for the gas to meet. Model the whole body, or "
+        "leave out the coupling");
+  if (coupled && w.mesh->has(solid::FarSide::Kind::mirror))
+    scene_error(
+        scene.solid->at,
+        "coupling.cut_cells: the gas would press on the faces that lie on a plane of symmetry, as on all others. "
+        "Model the whole body, or leave out the coupling");
   if (coupled) require_clear_periodic_sides(scene, *grid, *w.mesh, *w.surface);
   if (coupled) require_gauges_in_the_gas(scene, *grid, *w.mesh);
   if (coupled) w.cut_cells_of_block = count_cut_cells(*grid, *w.mesh, *w.surface);

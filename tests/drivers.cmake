@@ -100,6 +100,11 @@ scene_fault(damping_without_rate "damping_without_rate.toml:13:[0-9]+: solid.dam
             "${body}[solid.damping]\nuntil = 1\n")
 scene_fault(kinetic_with_rate "kinetic_with_rate.toml:13:[0-9]+: solid.damping: kinetic damping has no .rate."
             "${body}[solid.damping]\nlaw = \"kinetic\"\nrate = 1\n")
+set(gas_and_half "end_time = 1\n[fluid]\nhigh = [1, 1]\ncells = [16, 16]\neuler = {}\n[coupling]\ncut_cells = {}\n[solid]\nlinks = {}\n[solid.material.m]\ndensity = 1\nyoung_modulus = 1\n[[solid.body]]\nmaterial = \"m\"\nlow = [0.4, 0]\nhigh = [0.6, 0.4]\ncells = [2, 2]\n")
+scene_fault(mirror_in_gas "mirror_in_gas.toml:8:1: coupling.cut_cells: the gas would press on the faces that lie on a plane of symmetry"
+            "${gas_and_half}symmetry = [{ low = [0, 0], high = [1, 0] }]\n")
+scene_fault(periodic_in_gas "periodic_in_gas.toml:8:1: coupling.cut_cells: a periodic body has no closed surface"
+            "${gas_and_half}periodic = [\"x\"]\n")
 function(solid_gauge_fault name regex keys)
   scene_fault(${name} "${regex}" "${body}[[output.solid_gauge]]\nname = \"g\"\ninterval = 1\n${keys}")
 endfunction()

@@ -118,9 +118,9 @@ struct Mesh {
   Vec3 shift(Link const& l) const {
     return l.far >= 0 && far_side(l)->kind == FarSide::Kind::shifted ? far_side(l)->vector : Vec3{};
   }
-  bool periodic() const {
+  bool has(FarSide::Kind kind) const {
     for (FarSide const& side : far_sides)
-      if (side.kind == FarSide::Kind::shifted) return true;
+      if (side.kind == kind) return true;
     return false;
   }
   /// Links of a particle, in global order, as indices into `links`.

@@ -139,7 +139,7 @@ Surface::Surface(Mesh const& mesh, std::vector<bool> const& broken, Surface cons
     corners_.insert(corners_.end(), of_vertex.begin(), of_vertex.end());
     first_.push_back(corners_.size());
   }
-  if (!mesh.periodic()) check_closed();  // a periodic body is open where it goes on
+  if (!mesh.has(FarSide::Kind::shifted)) check_closed();  // a periodic body is open where it goes on
   if (!before) return;
 
   origins_.resize(at(next));

@@ -95,6 +95,26 @@ TEST(Damping, AHangingBarFindsItsStaticLength) {
   }
 }
 
+TEST(Damping, EndsAtTheResidualOrTheTime) {
+  DampingConfig how = kinetic();
+  how.residual = 1e-6;
+  Damped bar(hanging(0.3, 8), how);
+  Real const dt = bar.solid.stable_step();
+  int steps = 0;
+  for (; steps < 2000 && !bar.damping.over(0); ++steps) {
+    bar.step(dt);
+    bar.damping.watch_residual();
+  }
+  EXPECT_LT(steps, 1000);
+  EXPECT_EQ(bar.measure().value(Measures::kinetic), 0);  // what comes next starts from rest
+  for (Wrench const& w : bar.solid.internal()) EXPECT_LT(norm(w.force + Vec3{1e-4 * 1.25, 0, 0}), 1e-6 * 1e-3);
+  DampingConfig timed = viscous(1);
+  timed.until = 3.0;
+  Damping const damping(timed, {}, bar.solid, *bar.comm);
+  EXPECT_FALSE(damping.over(2.9));
+  EXPECT_TRUE(damping.over(3.0));
+}
+
 TEST(Damping, ViscousDecayOfRigidMotionIsExact) {
   SolidConfig config = one_material(1, 1, 0.3);
   config.body.push_back(box({0, 0, 0}, {1, 1, 1}, {1, 1, 1}));
