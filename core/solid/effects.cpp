@@ -4,6 +4,9 @@
 
 #include "core/base/errors.hpp"
 #include "core/solid/fracture/fracture.hpp"
+#include "core/solid/loads/absorbing_faces.hpp"
+#include "core/solid/loads/point_loads.hpp"
+#include "core/solid/loads/surface_loads.hpp"
 #include "core/solid/rows.hpp"
 
 namespace brisance::solid {
@@ -68,16 +71,24 @@ void Dynamics::join(Plan& plan) {
     });
     plan.limit("solid.links",
                [this](Clock const&) { return solid_.stable_limit().by_rotation ? 1e300 : solid_.stable_step(); });
+  } else {
+    // Other effects add to the forces, which have to start from nothing.
+    plan.at(Stage::forces, [this](Clock const&) { solid_.compute_forces(); });
   }
 }
 
 void Dynamics::start() {
   solid_.exchange_pose();
-  if (config_.links) solid_.compute_forces();
+  solid_.compute_forces();
 }
 
 std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm& comm) {
   std::vector<std::unique_ptr<Effect>> effects;
+  if (!config.pressure.empty() || !config.traction.empty() || !config.blast.empty())
+    effects.push_back(std::make_unique<SurfaceLoads>(config, solid));
+  if (!config.point_force.empty() || !config.moment_tensor.empty())
+    effects.push_back(std::make_unique<PointLoads>(config, solid));
+  if (!config.absorbing.empty()) effects.push_back(std::make_unique<AbsorbingFaces>(config, solid));
   if (config.fracture) {
     require(config.links.has_value(), config.fracture->at,
             "solid.fracture breaks links, and the scene has none: add links = {} to [solid]");

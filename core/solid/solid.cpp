@@ -158,44 +158,42 @@ void Solid::store_links() {
 }
 
 void Solid::load_faces(std::span<FaceLoad const> loads) {
-  loaded_.clear();
+  face_tractions_.clear();
   std::fill(face_opening_.begin(), face_opening_.end(), 0.0);
-  for (FaceLoad const& load : loads) {
-    Index const l = local(load.particle);
-    if (l < 0) continue;
-    FaceGeometry const& face = mesh_.face(load.particle, load.face);
-    Real distance = 0;
-    for (FreeFace const& f : mesh_.free_faces_of(load.particle))
-      if (f.face == load.face && !f.clamped) distance = f.distance;
-    Real const normal = dot(load.traction, face.normal), shear = mesh_.material(load.particle).shear();
-    face_opening_[at(l)] += face.area * distance / (2 * shear) * normal;
-    loaded_.push_back(
-        {l, face.area * load.traction, face.centroid, face.area * distance / (4 * shear) * normal * normal});
-  }
+  add_loaded_faces(loads);
+}
+
+std::size_t Solid::add_loaded_faces(std::span<FaceLoad const> loads) {
+  std::size_t const first = face_tractions_.faces().size();
+  for (FaceLoad const& load : loads)
+    if (Index const l = local(load.particle); l >= 0)
+      face_tractions_.add(mesh_, load.particle, load.face, l, load.traction);
+  tractions_changed();
+  return first;
+}
+
+Real Solid::gap_volume(std::size_t link) const {
+  return opened_volume(links_.rest(link), ends_of(pose_[at(links_.end_i(link))], pose_[at(links_.end_j(link))]));
 }
 
 void Solid::start_exchange() { halo_.start(comm_, pose_, half_); }
 void Solid::finish_exchange() { halo_.finish(pose_, half_); }
 
+void Solid::compute_strains() {
+  if (!volumetric_) return;
+  std::copy(face_opening_.begin(), face_opening_.end(), opened_.begin());
+  links_.add_opened_volume(pose_, opened_);
+  for (std::size_t p = 0; p < at(count_); ++p) pressure_[p] = bulk_[p] * opened_[p];
+}
+
 void Solid::compute_forces() {
-  std::size_t const n = at(count_);
-  if (volumetric_) {
-    std::copy(face_opening_.begin(), face_opening_.end(), opened_.begin());
-    links_.add_opened_volume(pose_, opened_);
-    for (std::size_t p = 0; p < n; ++p) pressure_[p] = bulk_[p] * opened_[p];
-  }
+  compute_strains();
   std::fill(wrench_.begin(), wrench_.end(), Wrench{});
   if (damageable())
     links_.add_wrench(pose_, pressure_, wrench_, gaps_);
   else
     links_.add_wrench(pose_, pressure_, wrench_);
-  for (LoadedFace const& face : loaded_) {
-    Wrench& w = wrench_[at(face.particle)];
-    Quaternion const& q = pose_[at(face.particle)].q;
-    Vec3 const force = rotate(q, face.force);
-    w.force += force;
-    w.torque += cross(rotate(q, face.arm), force);
-  }
+  face_tractions_.add_wrench(pose_, wrench_);
 }
 
 }  // namespace brisance::solid

@@ -1,10 +1,12 @@
 // The solid of one rank: its particles, the ghosts they need, their links, and the verbs of a step.
 #pragma once
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/solid/face_tractions.hpp"
 #include "core/solid/halo.hpp"
 #include "core/solid/links/link_store.hpp"
 #include "core/solid/measures.hpp"
@@ -75,13 +77,23 @@ class Solid {
   void finish_exchange();
   /// Internal forces and torques of owned particles at the current poses.
   void compute_forces();
+  /// The first half of it: opened volumes and pressures. Links of any state of damage.
+  void compute_strains();
   /// A step without a fluid: kick_and_drift, exchange, forces, half_kick.
   void step(Real dt);
 
-  /// Tractions on boundary faces until the next call; the same list on every rank.
-  /// Expects: free faces of the mesh, by particle.  They enter forces and volumetric strains at the next
-  /// compute_forces.
+  /// Tractions on boundary faces until the next call; the same list on every rank, each face once.
+  /// Expects: free faces of the mesh.  They enter forces and volumetric strains at the next compute_forces.
   void load_faces(std::span<FaceLoad const> loads);
+  /// More of them. Returns the place of the first in face_tractions().
+  std::size_t add_loaded_faces(std::span<FaceLoad const> loads);
+  /// The loaded faces of this rank, in the order in which they were given. After a change of their tractions,
+  /// tractions_changed().
+  FaceTractions& face_tractions() { return face_tractions_; }
+  void tractions_changed() { face_tractions_.open(face_opening_); }
+
+  /// Angular velocity J^-1 spin at the present turn, fixed frame, rad/s.
+  Vec3 omega_of(Index particle, Vec3 const& spin) const;
 
   // Links of this rank, in global order: those of owned particles and of the first layer of ghosts.
   LinkStore const& link_store() const { return links_; }
@@ -96,6 +108,16 @@ class Solid {
   std::span<Wrench> internal() { return std::span(wrench_).first(static_cast<std::size_t>(count_)); }
   /// Rows of `width` doubles per particle (count() rows), from owners to ghosts. Collective among neighbours.
   void exchange_rows(std::span<double> rows, std::size_t width) { halo_.exchange_rows(comm_, rows, width); }
+
+  /// S du . n of a link at the present poses: the volume its gap opens, m3.
+  Real gap_volume(std::size_t link) const;
+  /// Volume opened by the tractions on the faces of a particle, m3.
+  Real face_opening(Index particle) const { return face_opening_[static_cast<std::size_t>(particle)]; }
+  /// lambda over the effective volume, Pa/m3: pressure() over opened().
+  Real bulk(Index particle) const { return bulk_[static_cast<std::size_t>(particle)]; }
+  /// A free face of a particle here that something outside holds with the stiffness of its half link: the stable step
+  /// counts it as clamped.
+  void hold_face(Index particle, int face) { held_faces_.emplace(particle, face); }
 
   /// Makes room for damage; without it every link is whole for ever.
   void allow_damage() {
@@ -214,12 +236,8 @@ class Solid {
   std::size_t broken_ = 0;
   std::vector<GapBlock> gaps_;  // empty without damage
   bool volumetric_ = false;     // some lambda is not zero
-  struct LoadedFace {
-    Index particle;
-    Vec3 force, arm;  // body frame
-    Real stored;      // S d t_n^2 / 4G
-  };
-  std::vector<LoadedFace> loaded_;
+  FaceTractions face_tractions_;
+  std::multimap<Index, int> held_faces_;
   Reactions reactions_;
   mutable std::vector<double> link_limits_;
 };

@@ -69,6 +69,12 @@ void SolidConfig::keys(Keys<SolidConfig>& k) {
   k("motion", &SolidConfig::motion, "", "time integration of the particles");
   k("gravity", &SolidConfig::gravity, "m/s2", "acceleration of gravity");
   k("fracture", &SolidConfig::fracture, "", "links weaken and break by the criteria of its laws");
+  k("pressure", &SolidConfig::pressure, "", "pressures on boundary faces");
+  k("traction", &SolidConfig::traction, "", "forces per area on boundary faces");
+  k("blast", &SolidConfig::blast, "", "air blasts of charges of TNT on boundary faces, by published tables: no fluid");
+  k("point_force", &SolidConfig::point_force, "", "forces at points");
+  k("moment_tensor", &SolidConfig::moment_tensor, "", "seismic sources");
+  k("absorbing", &SolidConfig::absorbing, "", "boundary faces that let plane waves out");
 }
 
 }  // namespace brisance::solid

@@ -9,6 +9,7 @@
 #include "core/base/location.hpp"
 #include "core/base/vec3.hpp"
 #include "core/solid/fracture/fracture_config.hpp"
+#include "core/solid/loads/load_config.hpp"
 
 namespace brisance {
 template <class T>
@@ -79,6 +80,12 @@ struct SolidConfig {
   MotionConfig motion;
   std::optional<Vec3> gravity;  ///< m/s2
   std::optional<FractureConfig> fracture;
+  std::vector<PressureConfig> pressure;
+  std::vector<TractionConfig> traction;
+  std::vector<BlastConfig> blast;
+  std::vector<PointForceConfig> point_force;
+  std::vector<MomentTensorConfig> moment_tensor;
+  std::vector<AbsorbingConfig> absorbing;
   Location at;
   static void keys(Keys<SolidConfig>& k);
 };

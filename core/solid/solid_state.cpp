@@ -59,6 +59,11 @@ Real Solid::kinetic_energy(Index particle) const {
   return 0.5 * (dot(mesh_.particle(id(particle)).mass * m.v, m.v) + dot(body_spin, rate));
 }
 
+Vec3 Solid::omega_of(Index particle, Vec3 const& spin) const {
+  Quaternion const& q = pose_[at(particle)].q;
+  return rotate(q, symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].inverse) * rotate(conjugate(q), spin));
+}
+
 void Solid::measure(Measures& to) const {
   for (Index l = 0; l < owned_; ++l) {
     Real const mass = mesh_.particle(id(l)).mass;
@@ -78,8 +83,8 @@ void Solid::measure(Measures& to) const {
   for (std::size_t k = 0; k < links_.count(); ++k) {
     if (links_.end_i(k) < owned_) to.add(Measures::elastic, link_energy(k));
   }
-  for (LoadedFace const& face : loaded_)
-    if (face.particle < owned_) to.add(Measures::elastic, -face.stored);
+  for (FaceTractions::Face const& face : face_tractions_.faces())
+    if (face.particle < owned_) to.add(Measures::elastic, FaceTractions::energy(face));
 }
 
 Reactions Solid::take_reactions() {
