@@ -12,9 +12,10 @@
 namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
-  static std::vector<std::string> const names{"fluid.euler",    "fluid.viscosity",    "fluid.gravity",
-                                              "solid.motion",   "solid.links",        "solid.gravity",
-                                              "solid.fracture", "coupling.cut_cells", "output.gauges"};
+  static std::vector<std::string> const names{
+      "fluid.euler",         "fluid.viscosity", "fluid.gravity",  "solid.motion",       "solid.links",
+      "solid.gravity",       "solid.pressure",  "solid.traction", "solid.blast",        "solid.point_force",
+      "solid.moment_tensor", "solid.absorbing", "solid.fracture", "coupling.cut_cells", "output.gauges"};
   return names;
 }
 

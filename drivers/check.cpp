@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/solid/loads/blast_report.hpp"
 #include "drivers/assembly.hpp"
 #include "drivers/commands.hpp"
 #include "drivers/log.hpp"
@@ -220,6 +221,10 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
   }
   fmt::print("\nsize\n  {} cells in {} blocks, {} cut; {} particles, {} links\n", cells, blocks, cut, particles, links);
   fmt::print("  memory per rank: at most {:.0f} MB on {} ranks\n", most / 1e6, options.ranks);
+  if (scene.solid && !scene.solid->blast.empty()) {
+    fmt::print("\nblasts\n");
+    for (std::string const& line : solid::describe_blasts(*scene.solid, *world->mesh)) fmt::print("  {}\n", line);
+  }
   if (!charges.empty()) fmt::print("\ncharges\n");
   for (fluid::ChargeReport const& c : charges) {
     fmt::print("  {}\n", fluid::describe(c, world->dimension));

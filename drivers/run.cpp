@@ -7,6 +7,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/solid/loads/blast_report.hpp"
 #include "drivers/checkpoints.hpp"
 #include "drivers/commands.hpp"
 #include "drivers/log.hpp"
@@ -129,6 +130,8 @@ int execute(Job const& job, parallel::Comm& comm) {
   if (fresh) {
     start(*world, scene);
     log_charges(*world, scene);
+    if (scene.solid)
+      for (std::string const& line : solid::describe_blasts(*scene.solid, *world->mesh)) spdlog::info("{}", line);
   } else {
     resume(*world, job.checkpoints);
     start_effects(*world);
