@@ -28,6 +28,8 @@ brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/v
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
 brisance_same_digest(bursting-wheel ${scenes}/bursting-wheel.toml 80 --set solid.body.0.particles=300)
 brisance_same_digest(break-up ${PROJECT_SOURCE_DIR}/tests/support/scenes/break-up.toml 44)
+brisance_same_digest(loads ${PROJECT_SOURCE_DIR}/tests/support/scenes/loads.toml 60)
+brisance_same_digest(blast-plate ${scenes}/blast-plate.toml 80)
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
@@ -49,6 +51,13 @@ foreach(fault overlapping-bodies non-convex-cells)
   brisance_expect(scene_${fault} CODE 2 LABELS unit MESSAGE "${says_${fault}}" ABSENT ${runs}/${fault}
                   COMMAND ${program} run ${scene} --out ${runs}/${fault})
 endforeach()
+brisance_expect(scene_no_face_loaded CODE 2 LABELS unit ABSENT ${runs}/unloaded
+                MESSAGE "loads.toml:[0-9]+:[0-9]+: solid.traction.0. selects no face: none of the .* of solid.body .block."
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/loads.toml --out ${runs}/unloaded
+                        --set "solid.traction.0.normal=[0, 0, -1]")
+brisance_expect(scene_blast_too_far CODE 2 LABELS unit ABSENT ${runs}/far
+                MESSAGE "blast-plate.toml:[0-9]+:[0-9]+: solid.blast.0.: a face at .* published from 0.147 to 40"
+                COMMAND ${program} run ${scenes}/blast-plate.toml --out ${runs}/far --set "solid.blast.0.mass=1e-6")
 brisance_expect(scene_wall_leaves_its_cell CODE 2 LABELS unit ABSENT ${runs}/wall
                 MESSAGE "sides.toml:[0-9]+:[0-9]+: fluid.boundary.y_low is a wall that moves by"
                 COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/sides.toml --out ${runs}/wall
@@ -66,6 +75,8 @@ brisance_expect(check_explosion-cylinder CODE 0 LABELS unit MESSAGE "coupling.cu
 brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity +off: .*output.gauges +on.*416 particles.*charges +fluid.charge.0.: 1 kg of gas with 4.184 MJ above"
                 COMMAND ${program} check ${scenes}/explosion-box-3d.toml --ranks 2)
 
+brisance_expect(check_blast-plate CODE 0 LABELS unit MESSAGE "solid.blast +on.*solid.blast.0.: 1 kg of TNT on 1600 faces from 0.501"
+                COMMAND ${program} check ${scenes}/blast-plate.toml --ranks 2)
 brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)
 

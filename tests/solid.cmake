@@ -13,4 +13,7 @@ brisance_test(solid_parallel SOURCES parallel/solid_test.cpp LINKS brisance::sol
 brisance_test(solid_fracture_parallel SOURCES parallel/fracture_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
 brisance_test(solid_restart SOURCES restart/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS restart)
 brisance_test(solid_fracture SOURCES verification/solid/fracture_test.cpp verification/solid/fracture_account_test.cpp
+brisance_test(solid_loads_unit SOURCES unit/core/solid/loads/blast_test.cpp unit/core/solid/loads/load_test.cpp
+  LINKS brisance::solid LABELS unit)
+brisance_test(solid_loads SOURCES verification/solid/loads_test.cpp verification/solid/lamb_test.cpp
   LINKS brisance::solid LABELS verification)
