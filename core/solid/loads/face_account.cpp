@@ -60,13 +60,12 @@ void FaceAccount::after_second_kick(Real dt, LoadAccount& account) {
   auto const faces = solid_->face_tractions().faces();
   for (Loaded& l : loaded_) {
     l.velocity.take(*solid_, l.particle, l.second);
-    account.add(dt, l.first, l.second);
     Real const pressure = solid_->pressure()[static_cast<std::size_t>(l.particle)];
     Real at_rest = 0;  // a changing t_n changes the energy of a face at fixed positions
     for (std::size_t k = l.first_face; k < l.last_face; ++k)
       at_rest -= 0.5 * (extension_[k - offset_] + FaceTractions::extension(faces[k], pressure)) *
                  (faces[k].normal_traction() - normal_[k - offset_]);
-    account.add_work(at_rest);
+    account.add(dt, l.first, l.second, at_rest);
   }
 }
 

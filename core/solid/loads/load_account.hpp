@@ -15,19 +15,19 @@ struct KickLoad {
 /// else.
 class LoadAccount {
  public:
-  /// Books the step of one particle: half a kick at its start, half a kick at its end.
-  void add(Real dt, KickLoad const& first, KickLoad const& second) {
+  /// Books the step of one particle: half a kick at its start, half a kick at its end. `at_rest`: work that changes the
+  /// energy at fixed positions, J.
+  void add(Real dt, KickLoad const& first, KickLoad const& second, Real at_rest = 0) {
     Vec3 const impulse = (0.5 * dt) * (first.force + second.force);
-    for (int d = 0; d < 3; ++d) impulse_[static_cast<std::size_t>(d)].add(impulse[d]);
     Real const work = 0.5 * dt *
                       (dot(first.force, first.v) + dot(first.torque, first.omega) + dot(second.force, second.v) +
                        dot(second.torque, second.omega));
-    work_.add(work);
-    size_.add(std::abs(work));
-    push_.add(norm(impulse));
+    if (impulse == Vec3{} && work == 0 && at_rest == 0) return;  // a load that has not begun or is over
+    for (int d = 0; d < 3; ++d) impulse_[static_cast<std::size_t>(d)].add(impulse[d]);
+    work_.add(work + at_rest);
+    size_ += std::abs(work);
+    push_ += norm(impulse);
   }
-  /// Work that changes the energy at fixed positions, J.
-  void add_work(Real work) { work_.add(work); }
   void add_work(parallel::ExactSum const& work) { work_.add(work); }
 
   /// Adds all to the ledger and starts anew.
@@ -43,7 +43,8 @@ class LoadAccount {
 
  private:
   std::array<parallel::ExactSum, 3> impulse_{};
-  parallel::ExactSum work_, size_, push_;  // J, sum of sizes, sum of sizes of impulses
+  parallel::ExactSum work_;
+  Real size_ = 0, push_ = 0;  // sums of the sizes of works and impulses: scales, which may round
 };
 
 /// Watches the velocities of a particle through the two kicks of a step.
