@@ -88,6 +88,11 @@ void PointLoads::add_source(MomentTensorConfig const& config, std::string const&
           name +
               " acts in a particle with a boundary face, where a part of it would be lost. Move it at least one "
               "particle inside, into a body with links");
+  for (std::size_t const l : mesh.links_of(p))
+    require(mesh.links[l].far < 0, config.at,
+            name +
+                " acts in a particle beside a periodic side, beyond which its forces would act on an image. Move it at "
+                "least one particle away from that side");
   histories_.emplace_back(config, name, config.at);
   for (std::size_t const l : mesh.links_of(p)) {
     Link const& link = mesh.links[l];
