@@ -12,7 +12,7 @@ brisance_test(solid_statics SOURCES verification/solid/statics_test.cpp LINKS br
 add_library(brisance_linear_solid STATIC support/linear_solid.cpp support/uniaxial.cpp)
 target_link_libraries(brisance_linear_solid PUBLIC brisance::solid Eigen3::Eigen PRIVATE brisance_test_main)
 target_compile_options(brisance_linear_solid PRIVATE -Wno-conversion)
-foreach(part elastica patch plates pressure rods sphere waves)
+foreach(part elastica patch plates pressure rods sphere tetrahedra waves)
   brisance_test(solid_${part} SOURCES verification/solid/${part}_test.cpp LINKS brisance_linear_solid LABELS verification)
 endforeach()
 brisance_test(solid_rotation SOURCES verification/solid/rotation_test.cpp LINKS brisance::solid Eigen3::Eigen
