@@ -141,6 +141,8 @@ class Solid {
   /// A free face of a particle here that something outside holds with the stiffness of its half link: the stable step
   /// counts it as clamped.
   void hold_face(Index particle, int face) { held_faces_.emplace(particle, face); }
+  /// How the far end moves between the ends of the step, m/s and rad/s.
+  HalfVelocity far_half_velocity(std::size_t link) const;
 
   /// Makes room for damage; without it every link is whole for ever.
   void allow_damage() {

@@ -95,9 +95,27 @@ Vec3 Solid::omega_of(Index particle, Vec3 const& spin) const {
 Index Solid::end_j(std::size_t link) const {
   Index const entry = links_.end_j(link);
   if (entry < count_) return entry;
-  for (Image const& image : images_)
-    if (image.entry == entry) return image.of;
-  return count_;
+  auto const image = std::lower_bound(images_.begin(), images_.end(), entry,
+                                      [](Image const& of, Index wanted) { return of.entry < wanted; });
+  return image != images_.end() && image->entry == entry ? image->of : count_;
+}
+
+HalfVelocity Solid::far_half_velocity(std::size_t link) const {
+  Index const entry = links_.end_j(link), particle = end_j(link);
+  if (particle == count_) {
+    HalfVelocity of_wall;
+    for (Wall const& wall : walls_)
+      if (wall.entry == entry) of_wall.v = wall.v, of_wall.omega = wall.omega;
+    return of_wall;
+  }
+  HalfVelocity half = half_[at(particle)];
+  Link const& of = mesh_.links[mesh_link_[link]];
+  if (mesh_.is_mirror(of)) {
+    Vec3 const n = mesh_.far_side(of)->vector;
+    half.v -= (2 * dot(n, half.v)) * n;
+    half.omega = (2 * dot(n, half.omega)) * n - half.omega;
+  }
+  return half;
 }
 
 LinkEnds<double> Solid::link_ends(std::size_t link) const {

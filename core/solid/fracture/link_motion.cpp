@@ -19,23 +19,25 @@ Real stretch(Solid const& solid, std::size_t k) {
   Mesh const& mesh = solid.mesh();
   Link const& link = mesh.links[solid.mesh_link(k)];
   LinkEnds<double> const ends = solid.link_ends(k);
-  bool const wall = link.j == Link::wall;
   Vec3 const pole_i = vector(ends.x_i) + rotate(quaternion(ends.q_i), mesh.shape(link.i).pole);
-  Vec3 const pole_j = wall ? mesh.particle(link.i).centre + mesh.face(link.i, link.face_i).centroid
-                           : vector(ends.x_j) + rotate(quaternion(ends.q_j), mesh.shape(link.j).pole);
+  auto const far_pole = [&] {
+    if (mesh.is_mirror(link)) return mesh.far_side(link)->image(pole_i);
+    // The half link to a wall ends on the face.
+    Vec3 const arm = link.j == Link::wall ? vector(solid.link_store().rest(k).arm_j) : mesh.shape(link.j).pole;
+    return vector(ends.x_j) + rotate(quaternion(ends.q_j), arm);
+  };
+  Vec3 const pole_j = far_pole();
   return norm(pole_j - pole_i) / link.rest_length - 1;
 }
 
 Real gap_speed(Solid const& solid, std::size_t k) {
   LinkEnds<double> const ends = solid.link_ends(k);
   LinkRest<double> const rest = solid.link_store().rest(k);
-  auto const half = solid.half_velocity();
-  Index const i = solid.link_store().end_i(k), j = solid.end_j(k);
-  auto const speed = [&](Index p, Turn<double> const& q, Triple<double> const& arm) {
-    return half[at(p)].v + cross(half[at(p)].omega, rotate(quaternion(q), vector(arm)));
+  auto const speed = [&](HalfVelocity const& half, Turn<double> const& q, Triple<double> const& arm) {
+    return half.v + cross(half.omega, rotate(quaternion(q), vector(arm)));
   };
-  Vec3 const speed_i = speed(i, ends.q_i, rest.arm_i);
-  return norm(j == solid.count() ? speed_i : speed(j, ends.q_j, rest.arm_j) - speed_i);
+  return norm(speed(solid.far_half_velocity(k), ends.q_j, rest.arm_j) -
+              speed(solid.half_velocity()[at(solid.link_store().end_i(k))], ends.q_i, rest.arm_i));
 }
 
 Real fibre_stress(Solid const& solid, std::size_t k) {
