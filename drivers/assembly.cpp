@@ -1,6 +1,8 @@
 #include "drivers/assembly.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/base/errors.hpp"

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "core/base/errors.hpp"
 #include "core/solid/overlap.hpp"
 #include "core/solid/shapes/cells.hpp"
 #include "core/solid/space_curve.hpp"
@@ -207,7 +208,9 @@ class Supports {
         found = half_link(mesh_, p, face.face, face.distance);
         found->far = walls_[body][c];
       }
+    if (!found && in_group(of.clamp_groups, p, face)) found = half_link(mesh_, p, face.face, face.distance);
     if (found) return found;
+    if (in_group(of.symmetry_groups, p, face)) return mirror_link(p, face);
     for (HoldConfig const& box : of.symmetry)
       if (lies_in(p, face, box.low, box.high)) return mirror_link(p, face);
     return std::nullopt;
@@ -220,6 +223,12 @@ class Supports {
   Index motion(DrivenConfig const& box) {
     mesh_.motions.emplace_back(box, mesh_.dimension);
     return static_cast<Index>(mesh_.motions.size()) - 1;
+  }
+  bool in_group(std::vector<std::string> const& groups, GlobalId p, FreeFace const& face) const {
+    return std::any_of(groups.begin(), groups.end(), [&](std::string const& name) {
+      auto const faces = mesh_.face_group(name);
+      return std::binary_search(faces.begin(), faces.end(), FaceId{p, face.face});
+    });
   }
   bool lies_in(GlobalId p, FreeFace const& face, Vec3 const& low, Vec3 const& high) const {
     Polyhedron const& shape = mesh_.shape(p).polyhedron;
@@ -337,6 +346,15 @@ bool is_side_of_slab(FaceGeometry const& face, int dimension) {
   return false;
 }
 
+void require_face_group(Mesh const& mesh, std::string const& name, Location const& at, std::string const& of) {
+  if (mesh.face_groups.contains(name)) return;
+  std::vector<std::string> known;
+  for (auto const& [other, faces] : mesh.face_groups) known.push_back(other);
+  scene_error(at, of + ": no mesh file has a physical surface \"" + name + "\"" +
+                      (known.empty() ? "" : "; the nearest is \"" + nearest(name, known) + "\"") +
+                      ". Name one, or select faces by a box.");
+}
+
 Real face_distance(Mesh const& mesh, Link const& link, GlobalId p) {
   FaceGeometry const& f = mesh.face(link.i, link.face_i);
   Real const near = dot(f.centroid - mesh.shape(link.i).pole, f.normal);
@@ -410,8 +428,12 @@ Mesh build_mesh(SolidConfig const& config, int dimension) {
     for (HoldConfig const& box : body.hold)
       if (inside(p.centre, box.low, box.high, dimension)) p.freedom = Freedom::fixed, p.velocity = {}, p.motion = -1;
   }
-  connect(mesh, draft, config, number, supports);
   name_faces(mesh, draft, number);
+  for (BodyConfig const& body : config.body)
+    for (auto const* groups : {&body.clamp_groups, &body.symmetry_groups})
+      for (std::string const& name : *groups)
+        require_face_group(mesh, name, body.at, "solid.body \"" + body.name + "\"");
+  connect(mesh, draft, config, number, supports);
 
   for (std::size_t b = 0; b < config.body.size(); ++b)
     mesh.bodies.push_back({config.body[b].name, 0, 0, {}, draft.cells[b].whole_volume});

@@ -154,6 +154,9 @@ struct Mesh {
 /// (2/D) C of a link, the bending and twisting tensor, N m.  Source: theory/solid.md sections 4 and 8.
 Mat3 bending_tensor(Mesh const& mesh, Link const& link);
 
+/// Throws the scene error of the user `of` of a physical surface that no mesh file has.
+void require_face_group(Mesh const& mesh, std::string const& name, Location const& at, std::string const& of);
+
 /// Distance (m) of the face of a link from the pole of its particle `p`; D w of one material.
 Real face_distance(Mesh const& mesh, Link const& link, GlobalId p);
 

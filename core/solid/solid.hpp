@@ -1,7 +1,7 @@
 // The solid of one rank: its particles, the ghosts they need, their links, and the verbs of a step.
 #pragma once
-#include <map>
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>

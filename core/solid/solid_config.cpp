@@ -56,6 +56,9 @@ void BodyConfig::keys(Keys<BodyConfig>& k) {
   k("hold", &BodyConfig::hold, "", "boxes: particles with their centre inside are fixed");
   k("clamp", &BodyConfig::clamp, "",
     "boxes: boundary faces that lie inside are tied to a rigid wall, at rest or moving, by half links");
+  k("clamp_groups", &BodyConfig::clamp_groups, "",
+    "physical surfaces of mesh files (2D: curves) whose faces are tied to a rigid wall at rest");
+  k("symmetry_groups", &BodyConfig::symmetry_groups, "", "physical surfaces that lie in a plane of symmetry");
   k("symmetry", &BodyConfig::symmetry, "",
     "boxes: boundary faces that lie inside slide on their own plane, beyond which the body goes on as its mirror "
     "image");

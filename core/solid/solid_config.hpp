@@ -64,7 +64,8 @@ struct BodyConfig {
   std::vector<InitialVelocityConfig> initial_velocity;
   std::vector<HoldConfig> hold, symmetry;       // particles with their centre, boundary faces lying, in a box
   std::vector<DrivenConfig> clamp, prescribed;  // boundary faces, particles
-  std::vector<std::string> periodic;            // axes
+  std::vector<std::string> clamp_groups, symmetry_groups;  // physical surfaces of a mesh file
+  std::vector<std::string> periodic;                       // axes
   Location at;
   static void keys(Keys<BodyConfig>& k);
 };

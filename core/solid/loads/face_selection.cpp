@@ -46,6 +46,11 @@ std::vector<FaceRef> select_faces(FaceSelection const& selection, Mesh const& me
                                   Location const& at) {
   std::optional<Index> body;
   if (selection.body) body = find_body(mesh, *selection.body, load, at);
+  std::span<FaceId const> group;
+  if (selection.group) {
+    require_face_group(mesh, *selection.group, at, load + ".group");
+    group = mesh.face_group(*selection.group);
+  }
   std::optional<Vec3> normal = selection.normal;
   if (normal) {
     for (int d = mesh.dimension; d < 3; ++d) (*normal)[d] = 0;
@@ -58,6 +63,7 @@ std::vector<FaceRef> select_faces(FaceSelection const& selection, Mesh const& me
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (FreeFace const& face : mesh.free_faces) {
     if (face.clamped || (body && mesh.particle(face.particle).body != *body)) continue;
+    if (selection.group && !std::binary_search(group.begin(), group.end(), FaceId{face.particle, face.face})) continue;
     FaceGeometry const& geometry = mesh.face(face.particle, face.face);
     ++candidates;
     Vec3 const place = mesh.particle(face.particle).centre + geometry.centroid;
@@ -72,7 +78,9 @@ std::vector<FaceRef> select_faces(FaceSelection const& selection, Mesh const& me
   }
   if (chosen.empty())
     scene_error(at, load + " selects no face: none of the " + std::to_string(candidates) + " free boundary faces of " +
-                        (selection.body ? "solid.body \"" + *selection.body + "\"" : "the solid") +
+                        (selection.group  ? "the physical surface \"" + *selection.group + "\""
+                         : selection.body ? "solid.body \"" + *selection.body + "\""
+                                          : "the solid") +
                         (candidates > 0 ? ", with centres from " + text(low) + " to " + text(high) + " m," : "") +
                         " lies with all its corners between low and high, has the normal asked for (within " +
                         std::to_string(selection.within * 180 / std::acos(-1.0)) +

@@ -7,6 +7,7 @@ namespace brisance::solid {
 template <class T>
 void FaceSelection::declare(Keys<T>& k) {
   k("body", &T::body, "", "the body whose faces are meant; not given: all bodies");
+  k("group", &T::group, "", "the physical surface of a mesh file (2D: curve) that is meant; not given: any face");
   k("low", &T::low, "m", "lower corner of a box in which a face lies with all its corners; not given: no limit");
   k("high", &T::high, "m", "upper corner of that box; not given: no limit");
   k("normal", &T::normal, "1", "outward direction of the faces that are meant; not given: any");

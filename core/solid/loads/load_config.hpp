@@ -12,7 +12,7 @@ namespace brisance::solid {
 
 /// Which boundary faces a load acts on: all conditions that are given must hold.  Units: m, rad.
 struct FaceSelection {
-  std::optional<std::string> body;
+  std::optional<std::string> body, group;
   std::optional<Vec3> low, high, normal, facing;
   double within = 0.17453292519943295;
   template <class T>

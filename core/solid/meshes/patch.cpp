@@ -46,7 +46,7 @@ Patch::Patch(Mesh const& mesh, Index body, GlobalId most) : dimension_(mesh.dime
     for (std::size_t l : mesh.links_of(p)) {
       Link const& link = mesh.links[l];
       GlobalId const q = link.i == p ? link.j : link.i;
-      if (q == Link::wall || seen[at(q)]) continue;
+      if (q == Link::wall || mesh.shift(link) != Vec3{} || seen[at(q)]) continue;
       seen[at(q)] = 1;
       open.push({norm2(mesh.particle(q).centre - middle), q});
     }
@@ -64,9 +64,13 @@ Patch::Patch(Mesh const& mesh, Index body, GlobalId most) : dimension_(mesh.dime
       Link const& link = mesh.links[l];
       FaceGeometry const& f = mesh.face(link.i, link.face_i);
       Real const distance = face_distance(mesh, link, p);
-      Vec3 const arm = mesh.particle(link.i).centre + f.centroid - mesh.particle(p).centre;
       bool const first_end = link.i == p;
-      Index const other = link.j == Link::wall ? -1 : place[at(first_end ? link.j : link.i)];
+      Vec3 const arm = first_end
+                           ? f.centroid
+                           : mesh.particle(link.i).centre + f.centroid - mesh.particle(p).centre - mesh.shift(link);
+      // Where a periodic body is repeated the patch ends.
+      bool const inside = link.j != Link::wall && mesh.shift(link) == Vec3{};
+      Index const other = inside ? place[at(first_end ? link.j : link.i)] : -1;
       if (other < 0) {
         if (link.j == Link::wall) continue;  // among the free faces
         faces_.push_back({here, f.area, distance, first_end ? f.normal : -f.normal, arm});

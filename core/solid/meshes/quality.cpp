@@ -128,7 +128,7 @@ std::vector<MeshQuality> measure_quality(Mesh const& mesh, GlobalId patch) {
     auto const b = at(mesh.particle(link.i).body);
     FaceGeometry const& f = mesh.face(link.i, link.face_i);
     Vec3 const from = mesh.particle(link.i).centre + mesh.shape(link.i).pole;
-    Vec3 const line = mesh.particle(link.j).centre + mesh.shape(link.j).pole - from;
+    Vec3 const line = mesh.particle(link.j).centre + mesh.shape(link.j).pole + mesh.shift(link) - from;
     Real const angle = std::atan2(norm(cross(line, f.normal)), dot(line, f.normal));
     keep(all[b].angle, angle * 180 / std::numbers::pi, link.i);
     Real const share = face_distance(mesh, link, link.i) / link.rest_length;

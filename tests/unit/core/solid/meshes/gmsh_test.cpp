@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/solid/loads/face_selection.hpp"
 #include "core/solid/meshes/elements.hpp"
 #include "parallel/error.hpp"
 #include "tests/support/msh.hpp"
@@ -288,6 +289,28 @@ TEST(BrokenMesh, GroupsThatDoNotExistAreNamed) {
   text = what(config);
   EXPECT_NE(text.find("has no material"), std::string::npos) << text;
   EXPECT_NE(text.find("\"rod\", of which none is in solid.material"), std::string::npos) << text;
+}
+
+TEST(Gmsh, PhysicalSurfacesAreClampedAndLoadedByName) {
+  SolidConfig config = scene(testing::brick_mesh({4, 2, 2}, true).write("named", "4.1", true));
+  config.body[0].clamp_groups = {"left"};
+  Mesh const mesh = build_mesh(config, 3);
+  int clamped = 0;
+  for (FreeFace const& f : mesh.free_faces) {
+    if (!f.clamped) continue;
+    ++clamped;
+    EXPECT_NEAR(mesh.face(f.particle, f.face).normal.x, -1, 1e-14);
+  }
+  EXPECT_EQ(clamped, 8);
+  FaceSelection selection;
+  selection.group = "right";
+  auto const faces = select_faces(selection, mesh, "solid.pressure", {});
+  EXPECT_EQ(faces.size(), 8u);
+  for (FaceRef const& f : faces) EXPECT_NEAR(mesh.face(f.particle, f.face).normal.x, 1, 1e-14);
+  config.body[0].clamp_groups = {"lefd"};
+  EXPECT_NE(what(config).find("no mesh file has a physical surface \"lefd\"; the nearest is \"left\""),
+            std::string::npos)
+      << what(config);
 }
 
 TEST(Gmsh, WarpedHexahedraAreSplitWithMatchingFaces) {
