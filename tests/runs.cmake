@@ -94,7 +94,7 @@ brisance_expect(mesh_group_missing CODE 2 LABELS unit ABSENT ${runs}/no-group
                 MESSAGE "two-bars.toml:[0-9]+:[0-9]+: solid.body .bar.: .*meshes/two-bars.msh: no element is in a physical volume .copper.. Physical volumes: aluminium, steel"
                 COMMAND ${program} run ${scenes}/two-bars.toml --out ${runs}/no-group --set "solid.body.0.mesh.group=\"copper\"")
 
-brisance_expect(check_brick-wall CODE 0 LABELS unit MESSAGE "solid.contact +on.*contact +solid.contact.*372 particles, 833 links"
+brisance_expect(check_brick-wall CODE 0 LABELS unit MESSAGE "solid.contact +on.*contact +solid.contact.*372 particles, 828 links"
                 COMMAND ${program} check ${scenes}/brick-wall.toml --ranks 2)
 brisance_expect(scene_contact_in_a_gas CODE 2 LABELS unit ABSENT ${runs}/contact-gas
                 MESSAGE "solid.contact and coupling.cut_cells do not go together yet.*Leave contact out"
