@@ -25,6 +25,7 @@ brisance_same_digest(double-mach ${PROJECT_SOURCE_DIR}/tests/support/scenes/doub
 brisance_same_digest(viscous-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-box.toml 40)
 brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-bodies.toml 60)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
+brisance_same_digest(ductile ${PROJECT_SOURCE_DIR}/tests/support/scenes/ductile.toml 80)
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)

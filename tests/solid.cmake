@@ -1,6 +1,7 @@
 brisance_test(solid_unit
   SOURCES unit/core/solid/polyhedron_test.cpp unit/core/solid/shapes_test.cpp unit/core/solid/mesh_test.cpp
           unit/core/solid/link_law_test.cpp unit/core/solid/surface_test.cpp unit/core/solid/solid_test.cpp
+          unit/core/solid/plasticity_test.cpp
   LINKS brisance::solid LABELS unit)
 brisance_test(solid_statics SOURCES verification/solid/statics_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_rods SOURCES verification/solid/rods_test.cpp LINKS brisance::solid Eigen3::Eigen LABELS verification)
@@ -9,3 +10,4 @@ brisance_test(solid_rotation SOURCES verification/solid/rotation_test.cpp LINKS 
 brisance_test(solid_stable_step SOURCES verification/solid/stable_step_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_parallel SOURCES parallel/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
 brisance_test(solid_restart SOURCES restart/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS restart)
+brisance_test(solid_plasticity SOURCES verification/solid/plasticity_test.cpp LINKS brisance::solid LABELS verification)

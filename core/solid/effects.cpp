@@ -1,7 +1,9 @@
 #include "core/solid/effects.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/solid/plasticity/plasticity.hpp"
 #include "parallel/archive.hpp"
 
 namespace brisance::solid {
@@ -86,8 +88,11 @@ void Dynamics::start() {
   if (config_.links) solid_.compute_forces();
 }
 
-std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const&, Solid&, parallel::Comm&) {
+std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm& comm) {
   std::vector<std::unique_ptr<Effect>> effects;
+  auto const yields = [](auto const& material) { return material.second.plasticity.has_value(); };
+  if (std::any_of(config.material.begin(), config.material.end(), yields))
+    effects.push_back(std::make_unique<Plasticity>(config, solid, comm));
   return effects;
 }
 

@@ -88,6 +88,12 @@ struct Mesh {
   Material const& material(GlobalId p) const { return materials[static_cast<std::size_t>(particle(p).material)]; }
   Mat3 inertia(GlobalId p) const { return shape(p).inertia(material(p).density); }
   FaceGeometry const& face(GlobalId p, int face) const { return shape(p).faces[static_cast<std::size_t>(face)]; }
+  /// Distance of the face of a link from the pole of one of its particles, m.
+  Real reach(Link const& link, GlobalId p) const {
+    FaceGeometry const& f = face(link.i, link.face_i);
+    Real const of_i = dot(f.centroid - shape(link.i).pole, f.normal);
+    return p == link.i ? of_i : link.rest_length - of_i;
+  }
   /// Links of a particle, in global order, as indices into `links`.
   std::span<std::size_t const> links_of(GlobalId p) const {
     auto const at = static_cast<std::size_t>(p);

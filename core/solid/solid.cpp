@@ -158,23 +158,29 @@ void Solid::load_faces(std::span<FaceLoad const> loads) {
       if (f.face == load.face && !f.clamped) distance = f.distance;
     Real const normal = dot(load.traction, face.normal), shear = mesh_.material(load.particle).shear();
     face_opening_[at(l)] += face.area * distance / (2 * shear) * normal;
-    loaded_.push_back(
-        {l, face.area * load.traction, face.centroid, face.area * distance / (4 * shear) * normal * normal});
+    loaded_.push_back({l, face.area * load.traction, face.centroid,
+                       face.area * distance / (4 * shear) * normal * normal, face.normal,
+                       face.area * distance * normal});
   }
 }
 
 void Solid::start_exchange() { halo_.start(comm_, pose_, half_); }
 void Solid::finish_exchange() { halo_.finish(pose_, half_); }
 
-void Solid::compute_forces() {
+void Solid::compute_strains() {
+  if (!volumetric_) return;
   std::size_t const n = at(count_);
-  if (volumetric_) {
-    std::copy(face_opening_.begin(), face_opening_.end(), opened_.begin());
-    links_.add_opened_volume(pose_, opened_);
-    for (std::size_t p = 0; p < n; ++p) pressure_[p] = bulk_[p] * opened_[p];
-  }
+  std::copy(face_opening_.begin(), face_opening_.end(), opened_.begin());
+  links_.add_opened_volume(pose_, opened_);
+  if (plastic_) plastic_->add_opened_volume(opened_);
+  for (std::size_t p = 0; p < n; ++p) pressure_[p] = bulk_[p] * opened_[p];
+}
+
+void Solid::compute_forces() {
+  compute_strains();
   std::fill(wrench_.begin(), wrench_.end(), Wrench{});
   links_.add_wrench(pose_, pressure_, wrench_);
+  if (plastic_) plastic_->add_wrench(pose_, wrench_);
   for (LoadedFace const& face : loaded_) {
     Wrench& w = wrench_[at(face.particle)];
     Quaternion const& q = pose_[at(face.particle)].q;

@@ -10,6 +10,7 @@
 #include "core/solid/measures.hpp"
 #include "core/solid/mesh.hpp"
 #include "core/solid/particles.hpp"
+#include "core/solid/plasticity/plastic_strain.hpp"
 #include "core/solid/solid_config.hpp"
 #include "parallel/comm.hpp"
 
@@ -73,6 +74,8 @@ class Solid {
   void finish_exchange();
   /// Internal forces and torques of owned particles at the current poses.
   void compute_forces();
+  /// The first part of compute_forces: opened volumes and strain pressures at the current poses.
+  void compute_strains();
   /// A step without a fluid: kick_and_drift, exchange, forces, half_kick.
   void step(Real dt);
 
@@ -94,6 +97,13 @@ class Solid {
   std::span<Wrench> internal() { return std::span(wrench_).first(static_cast<std::size_t>(count_)); }
   /// Rows of `width` doubles per particle (count() rows), from owners to ghosts. Collective among neighbours.
   void exchange_rows(std::span<double> rows, std::size_t width) { halo_.exchange_rows(comm_, rows, width); }
+
+  /// Makes room for plastic strain; without it links are elastic. Source: theory/solid.md section 16.
+  void allow_plasticity() { plastic_ = std::make_unique<PlasticStrain>(mesh_, links_, ids_, mesh_link_); }
+  PlasticStrain& plastic() { return *plastic_; }  ///< Expects: allow_plasticity.
+  /// V times the stress that drives the plastic strain of the first particles, J, at the last compute_strains and the
+  /// present plastic strain.  Expects: allow_plasticity.
+  void driving_stress(std::span<Symmetric> to) const;
 
   /// Makes room for damage; without it every link is whole for ever.
   void allow_damage() { intact_.resize(links_.count(), 1.0); }
@@ -128,6 +138,12 @@ class Solid {
   /// The bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
   StableStep link_limit() const;
 
+  // Parts of the energy, J: of the volumetric strain of a particle, and of a link.
+  Real volumetric_energy(Index particle) const {
+    auto const at = static_cast<std::size_t>(particle);
+    return 0.5 * pressure_[at] * opened_[at];
+  }
+  Real link_energy(std::size_t link) const;
   /// Adds the sums over owned particles and links to `to`; add over ranks with Comm::sum.
   void measure(Measures& to) const;
   /// Impulse and work of the reactions of fixed, prescribed and clamped parts since the last call; resets them. This
@@ -188,12 +204,15 @@ class Solid {
   std::vector<std::size_t> clamps_;     // links to the wall whose particle is owned
 
   LinkStore links_;
-  std::vector<double> intact_;  // 1 - d of the links; empty without damage
-  bool volumetric_ = false;     // some lambda is not zero
+  std::vector<double> intact_;              // 1 - d of the links; empty without damage
+  bool volumetric_ = false;                 // some lambda is not zero
+  std::unique_ptr<PlasticStrain> plastic_;  // null: elastic
   struct LoadedFace {
     Index particle;
     Vec3 force, arm;  // body frame
     Real stored;      // S d t_n^2 / 4G
+    Vec3 normal;
+    Real pull;  // S d t_n
   };
   std::vector<LoadedFace> loaded_;
   Reactions reactions_;

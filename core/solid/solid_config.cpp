@@ -8,6 +8,7 @@ void MaterialConfig::keys(Keys<MaterialConfig>& k) {
   k("density", &MaterialConfig::density, "kg/m3", "mass density").required().above(0);
   k("young_modulus", &MaterialConfig::young_modulus, "Pa", "Young's modulus").required().above(0);
   k("poisson_ratio", &MaterialConfig::poisson_ratio, "1", "Poisson's ratio").above(-1).below(0.5);
+  k("plasticity", &MaterialConfig::plasticity, "", "plastic flow of von Mises; absent: elastic");
 }
 
 void LinksConfig::keys(Keys<LinksConfig>& k) {

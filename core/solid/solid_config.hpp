@@ -8,6 +8,7 @@
 
 #include "core/base/location.hpp"
 #include "core/base/vec3.hpp"
+#include "core/solid/plasticity/plasticity_config.hpp"
 
 namespace brisance {
 template <class T>
@@ -20,6 +21,7 @@ namespace brisance::solid {
 struct MaterialConfig {
   Real density = 0, young_modulus = 0, poisson_ratio = 0;
   Location at;
+  std::optional<PlasticityConfig> plasticity{};
   static void keys(Keys<MaterialConfig>& k);
 };
 

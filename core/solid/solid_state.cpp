@@ -60,7 +60,8 @@ void Solid::measure(Measures& to) const {
     Vec3 const body_spin = rotate(conjugate(pose_[at(l)].q), m.spin);
     Vec3 const rate = symmetric_matrix(inertia_[at(inertia_of_[at(l)])].inverse) * body_spin;
     to.add(Measures::kinetic, 0.5 * (dot(momentum, m.v) + dot(body_spin, rate)));
-    to.add(Measures::elastic, 0.5 * pressure_[at(l)] * opened_[at(l)]);
+    to.add(Measures::elastic, volumetric_energy(l));
+    if (plastic_) to.add(Measures::elastic, plastic_->slab_energy(l));
     to.add(Measures::mass, mass);
     to.add(Measures::momentum, momentum);
     to.add(Measures::angular, cross(pose_[at(l)].x, momentum) + m.spin);
@@ -71,12 +72,26 @@ void Solid::measure(Measures& to) const {
     }
   }
   for (std::size_t k = 0; k < links_.count(); ++k) {
-    Index const i = links_.end_i(k), j = links_.end_j(k);
-    if (i >= owned_) continue;
-    to.add(Measures::elastic, link_energy(links_.rest(k), ends_of(pose_[at(i)], pose_[at(j)])));
+    if (links_.end_i(k) < owned_) to.add(Measures::elastic, link_energy(k));
   }
+  for (LoadedFace const& face : loaded_) {
+    if (face.particle >= owned_) continue;
+    to.add(Measures::elastic, -face.stored);
+    if (plastic_)
+      to.add(Measures::elastic, -face.pull * dot(face.normal, plastic_->strain()[at(face.particle)] * face.normal));
+  }
+}
+
+Real Solid::link_energy(std::size_t link) const {
+  LinkEnds<double> const ends = ends_of(pose_[at(links_.end_i(link))], pose_[at(links_.end_j(link))]);
+  Real const elastic = solid::link_energy(links_.rest(link), ends);
+  return plastic_ ? elastic + plastic_->link_energy(link, ends) : elastic;
+}
+
+void Solid::driving_stress(std::span<Symmetric> to) const {
+  plastic_->driving_stress(pose_, pressure_, to);
   for (LoadedFace const& face : loaded_)
-    if (face.particle < owned_) to.add(Measures::elastic, -face.stored);
+    if (at(face.particle) < to.size()) to[at(face.particle)] = to[at(face.particle)] + face.pull * dyad(face.normal);
 }
 
 Reactions Solid::take_reactions() {

@@ -1,0 +1,261 @@
+// S30 of theory/solid.md section 19, and the gradient, the balance and the account with plastic strain.
+#include <gtest/gtest.h>
+
+#include "tests/support/ductile_solid.hpp"
+#include "tests/support/evidence.hpp"
+
+namespace brisance::solid {
+namespace {
+
+using testing::DuctileSolid;
+using testing::Random;
+
+SolidConfig bar(std::array<Index, 3> const& cells, Real nu, PlasticityConfig const& plasticity) {
+  SolidConfig config = testing::one_material(1, 1, nu);
+  config.material["m"].plasticity = plasticity;
+  config.body.push_back(testing::box({0, 0, 0}, {1.0 * cells[0], 1.0 * cells[1], 1.0 * cells[2]}, cells));
+  return config;
+}
+
+/// Distance of the outermost particles along x over that of the reference state, less 1.
+Real elongation(DuctileSolid const& body) {
+  Real low = 1e300, high = -1e300, first = 1e300, last = -1e300;
+  for (Index p = 0; p < body.solid.owned(); ++p) {
+    Real const x = body.solid.pose()[static_cast<std::size_t>(p)].x.x, start = body.mesh.particle(p).centre.x;
+    low = min(low, x), high = max(high, x), first = min(first, start), last = max(last, start);
+  }
+  return (high - low) / (last - first) - 1;
+}
+
+TEST(Plasticity, UniaxialBarHardensAndUnloads) {
+  Real const yield = 1e-3, saturation = 1e-3, b = 200, pull = 3000, largest = 0.018;
+  PlasticityConfig plasticity;
+  plasticity.yield_stress = yield;
+  plasticity.voce = {saturation, b};
+  for (auto const& cells : {std::array<Index, 3>{6, 1, 1}, {6, 2, 2}, {6, 3, 2}})
+    for (Real nu : {0.0, 0.3, 0.45}) {
+      auto const comm = parallel::serial();
+      DuctileSolid body(bar(cells, nu, plasticity), 3, 1e9, *comm);
+      body.start();
+      auto const stress_of = [&](Real p) { return yield - saturation * std::expm1(-b * p); };
+      auto const load_until = [&](Real duration, auto const& stress) {
+        Real const from = body.simulation.clock().time;
+        while (body.simulation.clock().time - from < duration) {
+          Real const s = (body.simulation.clock().time - from) / duration;
+          body.pull(stress(s * s * (3 - 2 * s)));  // a sudden end of the ramp would make the bar flow on
+          body.simulation.pair();
+          body.slow(0.01);
+        }
+      };
+      std::string const variant = std::to_string(cells[0]) + "x" + std::to_string(cells[1]) + "x" +
+                                  std::to_string(cells[2]) + " nu " + std::to_string(nu).substr(0, 4);
+      load_until(150, [&](Real s) { return s * yield; });
+      Real worst = 0;
+      for (int part = 1; part <= 4; ++part) {
+        Real const from = largest * (part - 1) / 4, to = largest * part / 4;
+        load_until(pull / 4, [&](Real s) { return stress_of(from + s * (to - from)); });
+        load_until(400, [&](Real) { return stress_of(to); });
+        worst = max(worst, std::abs(elongation(body) / (stress_of(to) + to) - 1));
+      }
+      EXPECT_TRUE(evidence::at_most("S30", "plastic bar", variant, "relative error of e(sigma)", worst, 5e-3));
+      Real const top = stress_of(largest), stretched = elongation(body);
+      load_until(150, [&](Real s) { return top * (1 - 0.75 * s); });
+      load_until(300, [&](Real) { return 0.25 * top; });
+      Real const slope = 0.75 * top / (stretched - elongation(body));
+      EXPECT_TRUE(evidence::near("S30", "plastic bar", variant, "unloading slope / E", slope, 1, 5e-3));
+      // Every particle has seen the same.
+      Real spread = 0;
+      for (PlasticState const& s : body.plasticity().state()) spread = max(spread, std::abs(s.p / largest - 1));
+      EXPECT_TRUE(evidence::at_most("S30", "plastic bar", variant, "spread of p over particles", spread, 5e-3));
+    }
+}
+
+/// Plastic strains of a few per cent, poses off by 0.3 h and 1 rad.
+void scatter(Solid& solid, Random& random) {
+  for (Pose& p : solid.pose()) {
+    p.x += 0.3 * random.vector();
+    p.q = testing::rotation(random.vector());
+  }
+  for (Symmetric& e : solid.plastic().strain()) {
+    for (double& c : e.c) c = 0.05 * random();
+    e = deviator(e);
+  }
+  solid.plastic().follow();
+}
+
+SolidConfig block(Real nu, bool voronoi) {
+  PlasticityConfig plasticity;
+  plasticity.yield_stress = 1e-3;
+  SolidConfig config = bar({3, 3, 2}, nu, plasticity);
+  if (voronoi) {
+    config.body[0].tessellation = "voronoi";
+    config.body[0].particles = 18;
+    config.body[0].lloyd = 3;
+  }
+  config.body[0].clamp.push_back({{0, -1, -1}, {0, 4, 4}});
+  return config;
+}
+
+Real elastic(DuctileSolid& body) {
+  body.solid.compute_forces();
+  Measures m;
+  body.solid.measure(m);
+  return m.value(Measures::elastic);
+}
+
+/// -dE/ds by sixth-order differences; `change` must be able to go back.
+template <class Change>
+Real slope(DuctileSolid& body, Change change) {
+  Real const h = 2e-3;
+  Solid::Saved saved;
+  body.solid.save(saved);
+  std::vector<Symmetric> const strain(body.solid.plastic().strain().begin(), body.solid.plastic().strain().end());
+  auto back = [&] {
+    body.solid.restore(saved);
+    std::copy(strain.begin(), strain.end(), body.solid.plastic().strain().begin());
+    body.solid.plastic().follow();
+  };
+  auto at = [&](Real s) {
+    back();
+    change(s);
+    body.solid.plastic().follow();
+    return elastic(body);
+  };
+  Real const value = -(45 * (at(h) - at(-h)) - 9 * (at(2 * h) - at(-2 * h)) + (at(3 * h) - at(-3 * h))) / (60 * h);
+  back();
+  return value;
+}
+
+TEST(Plasticity, ForcesAndDrivingStressAreTheGradientOfTheEnergy) {
+  for (bool voronoi : {false, true})
+    for (Real nu : {-0.6, 0.3, 0.48})
+      for (bool damaged : {false, true}) {
+        auto const comm = parallel::serial();
+        SolidConfig config = block(nu, voronoi);
+        if (!damaged) config.body[0].clamp.clear();  // so that the sums vanish
+        DuctileSolid body(config, 3, 1, *comm);
+        Solid& solid = body.solid;
+        Random random(11);
+        scatter(solid, random);
+        body.pull(0.02);
+        if (damaged) {
+          solid.allow_damage();
+          for (std::size_t k = 0; k < solid.links(); k += 3) solid.weaken(k, 0.5 + 0.5 * random());
+        }
+        solid.compute_forces();
+        std::vector<Wrench> const exact(solid.internal().begin(), solid.internal().end());
+        std::vector<Symmetric> driving(static_cast<std::size_t>(solid.owned()));
+        solid.driving_stress(driving);
+        std::vector<Wrench> loads(exact.size());
+        for (FreeFace const& f : body.mesh.free_faces) {
+          FaceGeometry const& face = body.mesh.face(f.particle, f.face);
+          if (std::abs(face.normal.x) < 0.5 || f.clamped) continue;
+          auto const at = static_cast<std::size_t>(f.particle);
+          Vec3 const force = rotate(solid.pose()[at].q, Vec3{0.02 * face.area * face.normal.x, 0, 0});
+          loads[at].force += force;
+          loads[at].torque += cross(rotate(solid.pose()[at].q, face.centroid), force);
+        }
+        Real error = 0, scale = 0, stress_error = 0, stress_scale = 0;
+        Vec3 force{}, torque{};
+        for (Index p = 0; p < solid.owned(); ++p) {
+          auto const at = static_cast<std::size_t>(p);
+          for (int d = 0; d < 3; ++d) {
+            Vec3 unit{};
+            unit[d] = 1;
+            Real const f = slope(body, [&](Real s) { solid.pose()[at].x += s * unit; });
+            Real const m = slope(body, [&](Real s) {
+              Quaternion& q = solid.pose()[at].q;
+              q = testing::rotation(s * unit) * q;
+            });
+            error = max(error, max(std::abs(f + loads[at].force[d] - exact[at].force[d]),
+                                   std::abs(m + loads[at].torque[d] - exact[at].torque[d])));
+            scale = max(scale, max(std::abs(exact[at].force[d]), std::abs(exact[at].torque[d])));
+          }
+          for (std::size_t c = 0; c < 6; ++c) {
+            Real const s = slope(body, [&](Real ds) { solid.plastic().strain()[at].c[c] += ds; });
+            Real const got = (c < 3 ? 1 : 2) * driving[at].c[c];
+            stress_error = max(stress_error, std::abs(s - got));
+            stress_scale = max(stress_scale, std::abs(got));
+          }
+          force += exact[at].force - loads[at].force;
+          torque += exact[at].torque - loads[at].torque + cross(solid.pose()[at].x, exact[at].force - loads[at].force);
+        }
+        std::string const variant = std::string("plastic ") + (damaged ? "damaged " : "") +
+                                    (voronoi ? "voronoi nu " : "cartesian nu ") + std::to_string(nu).substr(0, 5);
+        EXPECT_TRUE(evidence::at_most("S1", "gradient", variant, "max |F + grad E| / max |F|", error / scale, 1e-8));
+        EXPECT_TRUE(evidence::at_most("S1", "gradient", variant, "max |V s + dE/de| / max |V s|",
+                                      stress_error / stress_scale, 1e-8));
+        if (damaged) continue;
+        EXPECT_TRUE(evidence::at_most("S3", "balance", variant, "|sum F| / max |F|", norm(force) / scale, 1e-13));
+        EXPECT_TRUE(
+            evidence::at_most("S3", "balance", variant, "|sum x x F + M| / max |F|", norm(torque) / scale / 3, 1e-13));
+      }
+}
+
+TEST(Plasticity, TurningABodyTurnsNothingElse) {
+  auto const comm = parallel::serial();
+  SolidConfig config = block(0.3, true);
+  config.body[0].clamp.clear();  // its wall does not turn
+  DuctileSolid a(config, 3, 1, *comm), b(config, 3, 1, *comm);
+  Quaternion const turn = testing::rotation({0.3, -1.1, 0.7});
+  Random random(5);
+  a.start(), b.start();
+  for (Index p = 0; p < a.solid.owned(); ++p) {
+    auto const at = static_cast<std::size_t>(p);
+    Pose& pose = a.solid.pose()[at];
+    pose.x += 0.02 * random.vector();
+    pose.q = testing::rotation(0.02 * random.vector());
+    b.solid.pose()[at] = {rotate(turn, pose.x) + Vec3{0.5, -2, 1}, 0, turn * pose.q};
+  }
+  for (DuctileSolid* s : {&a, &b}) {
+    s->plasticity().flow(0.1);
+    s->solid.compute_forces();
+    s->plasticity().settle();
+  }
+  Real error = 0, scale = 0;
+  for (Index p = 0; p < a.solid.owned(); ++p) {
+    auto const at = static_cast<std::size_t>(p);
+    error = max(error, std::abs(a.plasticity().state()[at].p - b.plasticity().state()[at].p));
+    scale = max(scale, a.plasticity().state()[at].p);
+  }
+  EXPECT_GT(scale, 1e-3);
+  EXPECT_TRUE(
+      evidence::at_most("S2", "objectivity", "plastic", "relative change of p of a turned body", error / scale, 1e-12));
+}
+
+/// Largest |change of kinetic + elastic + stored - in + dissipated| over the initial energy.
+Real impact_defect(Real cfl, Real& plastic, Real& dissipated, Real& stored) {
+  PlasticityConfig plasticity;
+  plasticity.yield_stress = 2e-3;
+  plasticity.linear = {0.02};
+  plasticity.kinematic_modulus = 0.02;
+  SolidConfig config = bar({12, 3, 3}, 0.3, plasticity);
+  config.motion.cfl = cfl;
+  config.body[0].velocity = {-0.01, 0, 0};
+  config.body[0].clamp.push_back({{0, -1, -1}, {0, 4, 4}});
+  auto const comm = parallel::serial();
+  DuctileSolid body(config, 3, 120, *comm);
+  body.start();
+  while (!body.simulation.finished()) body.simulation.pair();
+  plastic = 0;
+  for (PlasticState const& s : body.plasticity().state()) plastic = max(plastic, s.p);
+  Real const initial = 0.5 * 12 * 9 * 1e-4;
+  dissipated = body.ledger().received(Entry::dissipated) / initial;
+  stored = body.ledger().total(Entry::solid_stored) / initial;
+  return body.ledger().conservation().energy;
+}
+
+TEST(Plasticity, ImpactOnAWallKeepsItsAccount) {
+  Real plastic, dissipated, stored;
+  Real const coarse = impact_defect(0.8, plastic, dissipated, stored);
+  EXPECT_GT(plastic, 5e-3);
+  EXPECT_GT(dissipated, 0.3);
+  EXPECT_GT(stored, 0.02);
+  Real const fine = impact_defect(0.4, plastic, dissipated, stored);
+  EXPECT_TRUE(evidence::at_most("S30", "impact of a bar on a wall", "cfl 0.8", "energy defect", coarse, 2e-2));
+  EXPECT_TRUE(
+      evidence::at_most("S30", "impact of a bar on a wall", "cfl 0.4 over 0.8", "energy defect", fine / coarse, 0.35));
+}
+
+}  // namespace
+}  // namespace brisance::solid
