@@ -26,6 +26,7 @@ brisance_same_digest(viscous-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/visc
 brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-bodies.toml 60)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
 brisance_same_digest(ductile ${PROJECT_SOURCE_DIR}/tests/support/scenes/ductile.toml 80)
+brisance_same_digest(consistent ${PROJECT_SOURCE_DIR}/tests/support/scenes/consistent.toml 80)
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
@@ -61,6 +62,11 @@ brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity
 
 brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)
+
+brisance_expect(scene_consistent_breaks CODE 2 LABELS unit ABSENT ${runs}/consistent-breaks
+                MESSAGE "ductile.toml:[0-9]+:[0-9]+: .*volumetric = .consistent. needs links that stay whole"
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/ductile.toml --out ${runs}/consistent-breaks
+                        --set "solid.links.volumetric=\"consistent\"")
 
 # Truncated checkpoints and a full disk.
 add_test(NAME truncated_checkpoint COMMAND ${PROJECT_SOURCE_DIR}/tests/support/truncated_checkpoint.sh ${program}

@@ -11,3 +11,5 @@ brisance_test(solid_stable_step SOURCES verification/solid/stable_step_test.cpp 
 brisance_test(solid_parallel SOURCES parallel/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
 brisance_test(solid_restart SOURCES restart/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS restart)
 brisance_test(solid_plasticity SOURCES verification/solid/plasticity_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_consistent SOURCES verification/solid/consistent_test.cpp LINKS brisance::solid Eigen3::Eigen
+  LABELS verification)

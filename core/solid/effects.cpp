@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/errors.hpp"
 #include "core/solid/plasticity/plasticity.hpp"
 #include "parallel/archive.hpp"
 
@@ -88,11 +89,22 @@ void Dynamics::start() {
   if (config_.links) solid_.compute_forces();
 }
 
+/// With consistent strains a break can raise the energy: the release of section 14 holds for the basic term alone.
+void refuse_damage(SolidConfig const& config, Location const& at, std::string const& what) {
+  require(
+      !config.links || config.links->volumetric == "basic", at,
+      what + " damages links, and solid.links.volumetric = \"consistent\" needs links that stay whole: use \"basic\".");
+}
+
 std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm& comm) {
   std::vector<std::unique_ptr<Effect>> effects;
   auto const yields = [](auto const& material) { return material.second.plasticity.has_value(); };
-  if (std::any_of(config.material.begin(), config.material.end(), yields))
+  if (std::any_of(config.material.begin(), config.material.end(), yields)) {
+    for (auto const& [name, material] : config.material)
+      if (material.plasticity && material.plasticity->failure)
+        refuse_damage(config, material.plasticity->at, "solid.material." + name + ".plasticity.failure");
     effects.push_back(std::make_unique<Plasticity>(config, solid, comm));
+  }
   return effects;
 }
 

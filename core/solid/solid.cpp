@@ -34,6 +34,9 @@ Solid::Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner
   choose_particles(surface);
   store_particles();
   store_links();
+  if (volumetric_ && config.links && config.links->volumetric == "consistent" && ConsistentStrain::needed(mesh))
+    consistent_ = std::make_unique<ConsistentStrain>(
+        mesh, links_, ids_, mesh_link_, [this](std::span<double> rows, auto width) { exchange_rows(rows, width); });
   compute_forces();
 }
 
@@ -172,14 +175,17 @@ void Solid::compute_strains() {
   std::size_t const n = at(count_);
   std::copy(face_opening_.begin(), face_opening_.end(), opened_.begin());
   links_.add_opened_volume(pose_, opened_);
+  if (consistent_) consistent_->move_volume(pose_, opened_);
   if (plastic_) plastic_->add_opened_volume(opened_);
   for (std::size_t p = 0; p < n; ++p) pressure_[p] = bulk_[p] * opened_[p];
+  if (consistent_) consistent_->take_pressure(pressure_);
 }
 
 void Solid::compute_forces() {
   compute_strains();
   std::fill(wrench_.begin(), wrench_.end(), Wrench{});
   links_.add_wrench(pose_, pressure_, wrench_);
+  if (consistent_) consistent_->add_wrench(pose_, wrench_);
   if (plastic_) plastic_->add_wrench(pose_, wrench_);
   for (LoadedFace const& face : loaded_) {
     Wrench& w = wrench_[at(face.particle)];

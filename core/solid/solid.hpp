@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/solid/halo.hpp"
+#include "core/solid/links/consistent_strain.hpp"
 #include "core/solid/links/link_store.hpp"
 #include "core/solid/measures.hpp"
 #include "core/solid/mesh.hpp"
@@ -72,7 +73,7 @@ class Solid {
   void exchange_pose() { start_exchange(), finish_exchange(); }
   void start_exchange();
   void finish_exchange();
-  /// Internal forces and torques of owned particles at the current poses.
+  /// Internal forces and torques of owned particles at the current poses. Collective with consistent strains.
   void compute_forces();
   /// The first part of compute_forces: opened volumes and strain pressures at the current poses.
   void compute_strains();
@@ -123,7 +124,7 @@ class Solid {
     std::vector<Motion> motion;
     std::vector<HalfVelocity> half;
     std::vector<Wrench> wrench, load;
-    std::vector<double> opened, pressure, intact;
+    std::vector<double> opened, pressure, intact, consistent;
     Reactions reactions;
   };
   enum class Restore { state, state_and_load };
@@ -204,9 +205,10 @@ class Solid {
   std::vector<std::size_t> clamps_;     // links to the wall whose particle is owned
 
   LinkStore links_;
-  std::vector<double> intact_;              // 1 - d of the links; empty without damage
-  bool volumetric_ = false;                 // some lambda is not zero
-  std::unique_ptr<PlasticStrain> plastic_;  // null: elastic
+  std::vector<double> intact_;                    // 1 - d of the links; empty without damage
+  bool volumetric_ = false;                       // some lambda is not zero
+  std::unique_ptr<PlasticStrain> plastic_;        // null: elastic
+  std::unique_ptr<ConsistentStrain> consistent_;  // null: basic volumetric term
   struct LoadedFace {
     Index particle;
     Vec3 force, arm;  // body frame

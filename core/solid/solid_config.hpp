@@ -27,7 +27,8 @@ struct MaterialConfig {
 
 /// Elastic links between the particles of a body; absent = free rigid particles.
 struct LinksConfig {
-  Real torsion_ratio = 1;  ///< kappa of theory/solid.md section 8
+  Real torsion_ratio = 1;            ///< kappa of theory/solid.md section 8
+  std::string volumetric = "basic";  ///< or "consistent", theory/solid.md section 9
   static void keys(Keys<LinksConfig>& k);
 };
 

@@ -29,6 +29,7 @@ void Solid::save(Saved& to) const {
   to.opened = opened_;
   to.pressure = pressure_;
   to.intact = intact_;
+  if (consistent_) to.consistent = consistent_->pull();
   to.reactions = reactions_;
 }
 
@@ -40,6 +41,7 @@ void Solid::restore(Saved const& from, Restore what) {
   opened_ = from.opened;
   pressure_ = from.pressure;
   reactions_ = from.reactions;
+  if (consistent_) consistent_->set_pull(from.consistent);
   for (std::size_t k = 0; k < intact_.size(); ++k)
     if (intact_[k] != from.intact[k]) weaken(k, from.intact[k]);
   if (what == Restore::state_and_load) load_ = from.load;
@@ -50,7 +52,7 @@ std::size_t Solid::bytes() const {
          inertia_.size() * sizeof(Inertia) + owner_.size() * (sizeof(int) + sizeof(Index));
 }
 
-std::size_t Solid::link_bytes() const { return links_.bytes(); }
+std::size_t Solid::link_bytes() const { return links_.bytes() + (consistent_ ? consistent_->bytes() : 0); }
 
 void Solid::measure(Measures& to) const {
   for (Index l = 0; l < owned_; ++l) {

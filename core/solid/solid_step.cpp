@@ -146,11 +146,12 @@ void Solid::book_reactions(Real dt) {
     auto const p = static_cast<std::size_t>(links_.end_i(c));
     LinkEnds<double> const ends = ends_of(pose_[p], pose_.back());
     LinkWrench<double> w = link_wrench(links_.rest(c), ends, pressure_[p], 0.0);
-    if (plastic_) {
-      LinkWrench<double> const offset = plastic_->wrench(c, ends);
-      w.force = w.force + offset.force;
-      w.torque_i = w.torque_i + offset.torque_i;
-    }
+    auto const add = [&w](LinkWrench<double> const& other) {
+      w.force = w.force + other.force;
+      w.torque_i = w.torque_i + other.torque_i;
+    };
+    if (consistent_) add(consistent_->wrench(c, ends));
+    if (plastic_) add(plastic_->wrench(c, ends));
     Vec3 const force{w.force.x, w.force.y, w.force.z}, torque{w.torque_i.x, w.torque_i.y, w.torque_i.z};
     reactions_.add(dt, force, torque + cross(pose_[p].x, force), {});
   }
