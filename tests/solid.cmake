@@ -13,3 +13,4 @@ brisance_test(solid_restart SOURCES restart/solid_test.cpp LINKS brisance::solid
 brisance_test(solid_plasticity SOURCES verification/solid/plasticity_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_consistent SOURCES verification/solid/consistent_test.cpp LINKS brisance::solid Eigen3::Eigen
   LABELS verification)
+brisance_test(solid_two_materials SOURCES verification/solid/two_materials_test.cpp LINKS brisance::solid LABELS verification)

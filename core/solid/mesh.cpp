@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 
+#include "core/solid/bonds.hpp"
 #include "core/solid/overlap.hpp"
 #include "core/solid/shapes/cells.hpp"
 #include "core/solid/space_curve.hpp"
@@ -93,6 +94,20 @@ int face_towards(Cells const& cells, std::size_t c, Index other, Vec3 const& twi
   return best;
 }
 
+/// Link of two half links in series; the weights are by compliance, which of one material are those by distance.
+/// Source: theory/solid.md section 1.
+Link series_link(Mesh const& mesh, GlobalId p, int face, GlobalId q, int twin) {
+  FaceGeometry const& f = mesh.face(p, face);
+  Vec3 const place = mesh.particle(p).centre + f.centroid;
+  Vec3 const pole_i = mesh.particle(p).centre + mesh.shape(p).pole,
+             pole_j = mesh.particle(q).centre + mesh.shape(q).pole;
+  Real const length = dot(pole_j - pole_i, f.normal), near = dot(place - pole_i, f.normal);
+  Real const shear_i = mesh.material(p).shear(), shear_j = mesh.material(q).shear();
+  if (shear_i == shear_j) return {p, q, face, twin, length, near / length, 2 * shear_i * f.area / length};
+  Real const give_i = near / shear_i, give_j = (length - near) / shear_j;
+  return {p, q, face, twin, length, give_i / (give_i + give_j), 2 * f.area / (give_i + give_j)};
+}
+
 Link half_link(Mesh const& mesh, GlobalId p, int face, Real distance) {
   Real const area = mesh.face(p, face).area;
   return {p, Link::wall, face, -1, distance, 1, 2 * mesh.material(p).shear() * area / distance};
@@ -124,6 +139,7 @@ void connect(Mesh& mesh, Draft const& draft, SolidConfig const& config, std::vec
   std::vector<std::size_t> draft_of(mesh.particles.size());
   for (std::size_t a = 0; a < number.size(); ++a) draft_of[static_cast<std::size_t>(number[a])] = a;
   mesh.first_free.assign(1, 0);
+  auto const bonds = find_bonds(config, draft.cells, draft.offset, mesh.dimension);
   for (GlobalId p = 0; p < mesh.size(); ++p) {
     std::size_t const a = draft_of[static_cast<std::size_t>(p)];
     auto const b = static_cast<std::size_t>(draft.body_of[a]);
@@ -141,11 +157,12 @@ void connect(Mesh& mesh, Draft const& draft, SolidConfig const& config, std::vec
         Vec3 const place = mesh.particle(p).centre + s.faces[f].centroid;
         int const twin = face_towards(cells, o, static_cast<Index>(c), place);
         if (twin < 0) continue;  // a sliver of a face that rounding left on one side only
-        Vec3 const pole_i = mesh.particle(p).centre + s.pole, pole_j = mesh.particle(q).centre + mesh.shape(q).pole;
-        Vec3 const n = s.faces[f].normal;
-        Real const length = dot(pole_j - pole_i, n);
-        mesh.links.push_back({p, q, face, twin, length, dot(place - pole_i, n) / length,
-                              2 * mesh.material(p).shear() * s.faces[f].area / length});
+        mesh.links.push_back(series_link(mesh, p, face, q, twin));
+        continue;
+      }
+      if (auto const bond = bonds.find({a, face}); bond != bonds.end()) {
+        GlobalId const q = number[bond->second.cell];
+        if (q > p) mesh.links.push_back(series_link(mesh, p, face, q, bond->second.face));
         continue;
       }
       FreeFace free{p, face, dot(s.faces[f].centroid - s.pole, s.faces[f].normal), false};
@@ -172,13 +189,28 @@ bool is_side_of_slab(FaceGeometry const& face, int dimension) {
   return false;
 }
 
+Real face_distance(Mesh const& mesh, Link const& link, GlobalId p) {
+  FaceGeometry const& f = mesh.face(link.i, link.face_i);
+  Real const near = dot(f.centroid - mesh.shape(link.i).pole, f.normal);
+  return p == link.i ? near : link.rest_length - near;
+}
+
 Mat3 bending_tensor(Mesh const& mesh, Link const& link) {
   FaceGeometry const& f = mesh.face(link.i, link.face_i);
-  Material const& m = mesh.material(link.i);
   Real const polar = trace(f.second);
   Mat3 const nn = outer(f.normal, f.normal);
-  Mat3 const c =
-      (mesh.torsion_ratio * m.shear() * polar) * nn + m.young_modulus * (polar * (Mat3::identity() - nn) - f.second);
+  auto const tensor = [&](Real shear, Real young) {
+    return (mesh.torsion_ratio * shear * polar) * nn + young * (polar * (Mat3::identity() - nn) - f.second);
+  };
+  Material const& m = mesh.material(link.i);
+  Mat3 c = tensor(m.shear(), m.young_modulus);
+  if (link.j != Link::wall && mesh.particle(link.i).material != mesh.particle(link.j).material) {
+    // Two half links in series: a modulus is the harmonic mean of both, by distance from the face.
+    Material const& other = mesh.material(link.j);
+    Real const share = face_distance(mesh, link, link.i) / link.rest_length;
+    auto const mean = [&](Real a, Real b) { return 1 / (share / a + (1 - share) / b); };
+    c = tensor(mean(m.shear(), other.shear()), mean(m.young_modulus, other.young_modulus));
+  }
   return (2 / link.rest_length) * c;
 }
 

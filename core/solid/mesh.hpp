@@ -88,12 +88,6 @@ struct Mesh {
   Material const& material(GlobalId p) const { return materials[static_cast<std::size_t>(particle(p).material)]; }
   Mat3 inertia(GlobalId p) const { return shape(p).inertia(material(p).density); }
   FaceGeometry const& face(GlobalId p, int face) const { return shape(p).faces[static_cast<std::size_t>(face)]; }
-  /// Distance of the face of a link from the pole of one of its particles, m.
-  Real reach(Link const& link, GlobalId p) const {
-    FaceGeometry const& f = face(link.i, link.face_i);
-    Real const of_i = dot(f.centroid - shape(link.i).pole, f.normal);
-    return p == link.i ? of_i : link.rest_length - of_i;
-  }
   /// Links of a particle, in global order, as indices into `links`.
   std::span<std::size_t const> links_of(GlobalId p) const {
     auto const at = static_cast<std::size_t>(p);
@@ -107,6 +101,9 @@ struct Mesh {
 
 /// (2/D) C of a link, the bending and twisting tensor, N m.  Source: theory/solid.md sections 4 and 8.
 Mat3 bending_tensor(Mesh const& mesh, Link const& link);
+
+/// Distance (m) of the face of a link from the pole of its particle `p`; D w of one material.
+Real face_distance(Mesh const& mesh, Link const& link, GlobalId p);
 
 /// Does a face lie in the plane of a 2D run (or across a 1D one)? Such faces are neither linked nor free.
 bool is_side_of_slab(FaceGeometry const& face, int dimension);

@@ -72,6 +72,7 @@ void BodyConfig::keys(Keys<BodyConfig>& k) {
 void SolidConfig::keys(Keys<SolidConfig>& k) {
   k("material", &SolidConfig::material, "", "materials by name");
   k("body", &SolidConfig::body, "", "bodies; they may touch, not overlap");
+  k("bond", &SolidConfig::bond, "", "bodies that touch and are glued together");
   k("links", &SolidConfig::links, "", "elastic links between the particles of a body");
   k("motion", &SolidConfig::motion, "", "time integration of the particles");
   k("gravity", &SolidConfig::gravity, "m/s2", "acceleration of gravity");

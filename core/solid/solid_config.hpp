@@ -8,6 +8,7 @@
 
 #include "core/base/location.hpp"
 #include "core/base/vec3.hpp"
+#include "core/solid/bonds.hpp"
 #include "core/solid/plasticity/plasticity_config.hpp"
 
 namespace brisance {
@@ -77,6 +78,7 @@ struct BodyConfig {
 struct SolidConfig {
   std::map<std::string, MaterialConfig> material;
   std::vector<BodyConfig> body;
+  std::vector<BondConfig> bond;
   std::optional<LinksConfig> links;
   MotionConfig motion;
   std::optional<Vec3> gravity;  ///< m/s2

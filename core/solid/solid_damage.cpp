@@ -29,9 +29,8 @@ void Solid::set_bulk(GlobalId particle) {
     auto const here = local_link(l);
     if (!here) continue;  // a particle of the second layer, whose strain belongs to other ranks
     Link const& link = mesh_.links[l];
-    Real const weight = link.i == particle ? link.weight : 1 - link.weight;
-    volume +=
-        material.free_ratio() * (1 - intact_[*here]) * mesh_.face(link.i, link.face_i).area * weight * link.rest_length;
+    volume += material.free_ratio() * (1 - intact_[*here]) * mesh_.face(link.i, link.face_i).area *
+              face_distance(mesh_, link, particle);
   }
   bulk_[static_cast<std::size_t>(local(particle))] = material.lame() / volume;
 }

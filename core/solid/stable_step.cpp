@@ -161,7 +161,6 @@ std::vector<double> Solid::link_limits() const {
   for (Index l = 0; l < owned_; ++l) {
     GlobalId const p = id(l);
     if (motion_[at(l)].turns == 0 || mesh_.links_of(p).empty()) continue;
-    Real const lame = max(mesh_.material(p).lame(), 0);
     Matrix6 k = Matrix6::Zero();
     for (std::size_t index : mesh_.links_of(p)) {
       Link const& link = mesh_.links[index];
@@ -181,9 +180,11 @@ std::vector<double> Solid::link_limits() const {
       if (wall || consistent_) continue;
       StrainBound const& of = bound[at(local(e.other))];
       Vector6 const g = generalized_normal(e);
+      Real const lame = max(mesh_.material(e.other).lame(), 0);
       k += lame * (of.cancels ? 1 : 2) * of.ratio * (e.face->area / link.rest_length) * g * g.transpose();
     }
     StrainBound const& mine = bound[at(l)];
+    Real const lame = max(mesh_.material(p).lame(), 0);
     if (consistent_)
       k += consistent[at(l)];
     else if (!mine.cancels)

@@ -18,13 +18,13 @@ struct DuctileSolid {
   Simulation simulation;
 
   DuctileSolid(solid::SolidConfig const& config, int dimension, Real end_time, parallel::Comm& all,
-               std::vector<int> const& owner)
+               std::vector<int> const& owner, Real output_interval = 0)
       : mesh(solid::build_mesh(config, dimension)),
         comm(all),
         solid(mesh, config, owner, comm, dimension),
         dynamics(config, solid),
         effects(solid::make_effects(config, solid, comm)),
-        simulation(plan, comm, {end_time, 1, 0}) {
+        simulation(plan, comm, {end_time, 1, output_interval}) {
     dynamics.join(plan);
     for (auto const& effect : effects) effect->join(plan);
   }

@@ -71,7 +71,7 @@ FaceOffset face_offset(Mesh const& mesh, Link const& link) {
   if (link.j == Link::wall) return {face.area * face.normal, {}};
   Vec3 const pole = mesh.particle(link.i).centre + mesh.shape(link.i).pole;
   Vec3 const between = mesh.particle(link.j).centre + mesh.shape(link.j).pole - pole;
-  Real const share = mesh.reach(link, link.i) / link.rest_length;
+  Real const share = face_distance(mesh, link, link.i) / link.rest_length;
   Vec3 offset = mesh.particle(link.i).centre + face.centroid - (pole + share * between);
   if (norm2(offset) < 1e-20 * norm2(between)) offset = {};
   return {(face.area / link.rest_length) * between, offset};

@@ -47,8 +47,8 @@ PlasticStrain::PlasticStrain(Mesh const& mesh, LinkStore const& links, std::span
     Link const& link = mesh.links[mesh_link_[k]];
     Vec3 const n = mesh.face(link.i, link.face_i).normal;
     OffsetBlock& b = blocks_[k / lanes];
-    std::array<double, 5> const rest{n.x, n.y, n.z, mesh.reach(link, link.i),
-                                     link.j == Link::wall ? 0 : mesh.reach(link, link.j)};
+    std::array<double, 5> const rest{n.x, n.y, n.z, face_distance(mesh, link, link.i),
+                                     link.j == Link::wall ? 0 : face_distance(mesh, link, link.j)};
     for (std::size_t f = 0; f < rest.size(); ++f) b.field[f][k % lanes] = rest[f];
   }
   for (std::size_t p = 0; p < particles_; ++p) {
@@ -73,7 +73,7 @@ void PlasticStrain::gather_free_faces(std::size_t particle) {
       Real const lost = lost_[static_cast<std::size_t>(here - mesh_link_.begin())];
       Link const& link = mesh_.links[l];
       FaceGeometry const& face = mesh_.face(link.i, link.face_i);
-      if (lost > 0) sum = sum + (lost * face.area * mesh_.reach(link, p)) * dyad(face.normal);
+      if (lost > 0) sum = sum + (lost * face.area * face_distance(mesh_, link, p)) * dyad(face.normal);
     }
   free_faces_[particle] = sum;
 }

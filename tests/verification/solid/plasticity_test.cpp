@@ -70,6 +70,115 @@ TEST(Plasticity, UniaxialBarHardensAndUnloads) {
     }
 }
 
+/// A bar one cell wide, brought slowly from one stress to the next.
+class Testing {
+ public:
+  explicit Testing(PlasticityConfig const& plasticity, Real nu)
+      : body_(bar({6, 1, 1}, nu, plasticity), 3, 1e9, *comm_) {
+    body_.start();
+  }
+  void load(Real stress, Real duration = 1500) {
+    Real const from = body_.simulation.clock().time, before = stress_;
+    while (body_.simulation.clock().time - from < duration + 300) {
+      Real const s = min((body_.simulation.clock().time - from) / duration, 1);
+      body_.pull(stress_ = before + s * s * (3 - 2 * s) * (stress - before));
+      body_.simulation.pair();
+      body_.slow(0.01);
+    }
+  }
+  Real strain() const { return elongation(body_); }
+  Real p() { return body_.plasticity().state()[3].p; }
+
+ private:
+  std::unique_ptr<parallel::Comm> comm_ = parallel::serial();
+  DuctileSolid body_;
+  Real stress_ = 0;
+};
+
+TEST(Plasticity, BackStressGivesClosedLoops) {
+  PlasticityConfig prager;
+  prager.yield_stress = 1e-3;
+  prager.kinematic_modulus = 0.02;
+  Testing bar(prager, 0.3);
+  Real const top = 1.6e-3, plastic = (top - 1e-3) / (1.5 * 0.02);
+  bar.load(top);
+  EXPECT_TRUE(evidence::near("S30", "cyclic bar, Prager", "first pull", "e over exact", bar.strain() / (top + plastic),
+                             1, 5e-3));
+  Real const once = bar.p();
+  bar.load(top - 1.98e-3);  // the way back is elastic for twice the yield stress, wherever it begins
+  EXPECT_TRUE(
+      evidence::near("S30", "cyclic bar, Prager", "unloading", "p over that of the pull", bar.p() / once, 1, 1e-12));
+  for (int half = 1; half <= 4; ++half) {
+    Real const sign = half % 2 ? -1 : 1;
+    bar.load(sign * top);
+    std::string const variant = "half cycle " + std::to_string(half);
+    EXPECT_TRUE(evidence::near("S30", "cyclic bar, Prager", variant, "e over exact",
+                               bar.strain() / (sign * (top + plastic)), 1, 5e-3));
+    EXPECT_TRUE(evidence::near("S30", "cyclic bar, Prager", variant, "p over exact",
+                               bar.p() / (plastic * (1 + 2 * half)), 1, 5e-3));
+  }
+}
+
+TEST(Plasticity, IsotropicHardeningKeepsWhatItGained) {
+  PlasticityConfig linear;
+  linear.yield_stress = 1e-3;
+  linear.linear = {0.03};
+  Testing bar(linear, 0.3);
+  bar.load(1.6e-3);
+  Real const once = bar.p();
+  bar.load(-1.58e-3, 3000);
+  EXPECT_TRUE(
+      evidence::near("S30", "cyclic bar, isotropic", "way back", "p over that of the pull", bar.p() / once, 1, 1e-12));
+}
+
+/// The middle of a heavy block that is stretched in one direction at a given rate.
+struct Middle {
+  Real stress, p, rate, temperature;
+};
+Middle stretch_fast(Real rate, bool hot) {
+  PlasticityConfig cook;
+  cook.yield_stress = 1e-3;
+  cook.johnson_cook = {1e-3, 0.5, 0.1, 1e-3, 1, 300, 1300};
+  if (hot) cook.heating = {2e-19, 0.9, 300};
+  SolidConfig config = bar({5, 5, 5}, 0.3, cook);
+  config.material["m"].density = 1e12;  // waves have no time to leave
+  auto const comm = parallel::serial();
+  Real const duration = 0.05 / rate;
+  DuctileSolid body(config, 3, duration, *comm, std::vector<int>(125, 0), duration / 2000);
+  Index middle = 0;
+  for (Index p = 0; p < body.solid.owned(); ++p) {
+    Vec3 const x = body.mesh.particle(p).centre;
+    body.solid.motion()[static_cast<std::size_t>(p)].v.x = rate * x.x;
+    if (norm(x - Vec3{2.5, 2.5, 2.5}) < 0.1) middle = p;
+  }
+  body.start();
+  PlasticState const& state = body.plasticity().state()[static_cast<std::size_t>(middle)];
+  Real before = 0, then = 0;
+  while (!body.simulation.finished()) {
+    if (body.simulation.clock().time < 0.98 * duration) before = state.p, then = body.simulation.clock().time;
+    body.simulation.pair();
+  }
+  return {equivalent(body.plasticity().stress(middle)), state.p, (state.p - before) / (duration - then),
+          state.temperature};
+}
+
+TEST(Plasticity, FastFlowIsHarderAndHeatsItself) {
+  for (bool hot : {false, true})
+    for (Real rate : {1e-3, 1.0, 1e3}) {
+      if (hot && rate != 1) continue;
+      Middle const middle = stretch_fast(rate, hot);
+      Real const law = (1e-3 + 1e-3 * std::sqrt(middle.p)) * (1 + 0.1 * std::log(std::max(middle.rate / 1e-3, 1.0))) *
+                       (hot ? 1 - (middle.temperature - 300) / 1000 : 1);
+      std::string const variant = (hot ? "heated, rate " : "rate ") + std::to_string(rate).substr(0, 8);
+      EXPECT_TRUE(evidence::near("S30", "block at a rate, Johnson-Cook", variant, "stress over law",
+                                 middle.stress / law, 1, 5e-3));
+      EXPECT_GT(middle.p, 0.02);
+      if (hot) {
+        EXPECT_GT(middle.temperature, 400);
+      }
+    }
+}
+
 /// Plastic strains of a few per cent, poses off by 0.3 h and 1 rad.
 void scatter(Solid& solid, Random& random) {
   for (Pose& p : solid.pose()) {
