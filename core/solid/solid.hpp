@@ -103,8 +103,8 @@ class Solid {
   void allow_plasticity() { plastic_ = std::make_unique<PlasticStrain>(mesh_, links_, ids_, mesh_link_); }
   PlasticStrain& plastic() { return *plastic_; }  ///< Expects: allow_plasticity.
   /// V times the stress that drives the plastic strain of the first particles, J, at the last compute_strains and the
-  /// present plastic strain.  Expects: allow_plasticity.
-  void driving_stress(std::span<Symmetric> to) const;
+  /// present plastic strain. `same_poses`: as at the last call.  Expects: allow_plasticity.
+  void driving_stress(std::span<Symmetric> to, bool same_poses = false);
 
   /// Makes room for damage; without it every link is whole for ever.
   void allow_damage() { intact_.resize(links_.count(), 1.0); }

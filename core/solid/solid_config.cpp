@@ -17,7 +17,7 @@ void LinksConfig::keys(Keys<LinksConfig>& k) {
       .above(0)
       .at_most(1);
   k("volumetric", &LinksConfig::volumetric, "",
-    "consistent: volumetric strains exact on all Voronoi meshes, forces 1.7 times as dear; recommended there for "
+    "consistent: volumetric strains exact on all Voronoi meshes, a step 2.6 times as dear; recommended there for "
     "poisson_ratio >= 0.4. basic: exact on Cartesian cells, G 0.1 % high at 0.3 and 0.5 % at 0.45 on centroidal "
     "Voronoi "
     "cells, several % on irregular ones")

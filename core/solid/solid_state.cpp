@@ -90,8 +90,8 @@ Real Solid::link_energy(std::size_t link) const {
   return plastic_ ? elastic + plastic_->link_energy(link, ends) : elastic;
 }
 
-void Solid::driving_stress(std::span<Symmetric> to) const {
-  plastic_->driving_stress(pose_, pressure_, to);
+void Solid::driving_stress(std::span<Symmetric> to, bool same_poses) {
+  plastic_->driving_stress(pose_, pressure_, to, same_poses);
   for (LoadedFace const& face : loaded_)
     if (at(face.particle) < to.size()) to[at(face.particle)] = to[at(face.particle)] + face.pull * dyad(face.normal);
 }

@@ -31,36 +31,38 @@ LinkWrench<V> wrench_of(LinkFrame<V> const& frame, Triple<V> const& p) {
   return out;
 }
 
-/// Matrices of four particles, row by row.
-struct MatrixLanes {
-  Triple<Lanes> row[3];
-  MatrixLanes(double const* rows, std::size_t width, std::array<Index, lanes> const& of) {
-    for (std::size_t r = 0; r < 3; ++r) {
-      auto const read = [&](std::size_t k) { return Lanes::load_unaligned(rows + width * at(of[k]) + 4 * r); };
-      Lanes a = read(0), b = read(1), c = read(2), d = read(3);
-      transpose(a, b, c, d);
-      row[r] = {a, b, c};
-    }
-  }
-};
+double const* rows_of(std::vector<double> const& rows, std::size_t width, Index particle) {
+  return rows.data() + width * at(particle);
+}
 
-/// (A_i + A_j) v
-Triple<Lanes> sum_times(MatrixLanes const& i, MatrixLanes const& j, Triple<Lanes> const& v) {
-  return {dot(i.row[0] + j.row[0], v), dot(i.row[1] + j.row[1], v), dot(i.row[2] + j.row[2], v)};
+/// (A_i + A_j) v for the matrices of the ends of four links.
+Triple<Lanes> sum_times(std::vector<double> const& rows, std::size_t width, LinkBlock const& b,
+                        Triple<Lanes> const& v) {
+  Lanes out[3];
+  for (std::size_t r = 0; r < 3; ++r) {
+    auto const read = [&](std::size_t k) {
+      return Lanes::load_unaligned(rows_of(rows, width, b.i[k]) + 4 * r) +
+             Lanes::load_unaligned(rows_of(rows, width, b.j[k]) + 4 * r);
+    };
+    Lanes x = read(0), y = read(1), z = read(2), w = read(3);
+    transpose(x, y, z, w);
+    out[r] = dot(Triple<Lanes>{x, y, z}, v);
+  }
+  return {out[0], out[1], out[2]};
 }
 
 /// Adds u v^T of four links to both ends.
 void add_dyads(std::vector<double>& rows, std::size_t width, LinkBlock const& b, Triple<Lanes> const& u,
                Triple<Lanes> const& v) {
-  Lanes const factor[3] = {u.x, u.y, u.z};
-  for (std::size_t r = 0; r < 3; ++r) {
-    auto const parts = per_link(factor[r] * v);
-    for (std::size_t k = 0; k < lanes; ++k)
-      for (Index const end : {b.i[k], b.j[k]}) {
-        double* to = rows.data() + width * at(end) + 4 * r;
-        (Lanes::load_unaligned(to) + parts[k]).store_unaligned(to);
-      }
-  }
+  alignas(32) std::array<double, lanes> factor[3];
+  u.x.store_aligned(factor[0].data()), u.y.store_aligned(factor[1].data()), u.z.store_aligned(factor[2].data());
+  auto const record = per_link(v);
+  for (std::size_t k = 0; k < lanes; ++k)
+    for (Index const end : {b.i[k], b.j[k]}) {
+      double* to = rows.data() + width * at(end);
+      for (std::size_t r = 0; r < 3; ++r)
+        multiply_add(Lanes(factor[r][k]), record[k], Lanes::load_unaligned(to + 4 * r)).store_unaligned(to + 4 * r);
+    }
 }
 
 }  // namespace
@@ -142,8 +144,7 @@ void ConsistentStrain::move_volume(std::span<Pose const> pose, std::span<double>
   std::fill(gradient_.end() - row, gradient_.end(), 0.0);
   for (std::size_t n = 0; n < blocks_.size(); ++n) {
     LinkBlock const& b = links_.records()[n];
-    MatrixLanes const i(gradient_.data(), row, b.i), j(gradient_.data(), row, b.j);
-    Triple<Lanes> const move = sum_times(i, j, {field(n, 3), field(n, 4), field(n, 5)});
+    Triple<Lanes> const move = sum_times(gradient_, row, b, {field(n, 3), field(n, 4), field(n, 5)});
     alignas(32) std::array<double, lanes> volume;
     (Lanes(0.5) * dot(read_rest(b).area, move)).store_aligned(volume.data());
     for (std::size_t k = 0; k < lanes; ++k) {
@@ -170,9 +171,8 @@ void ConsistentStrain::add_wrench(std::span<Pose const> pose, std::span<Wrench> 
   for (std::size_t n = 0; n < blocks_.size(); ++n) {
     LinkBlock const& b = links_.records()[n];
     auto const field = [&](std::size_t f) { return Lanes::load_aligned(blocks_[n].field[f].data()); };
-    MatrixLanes const i(pull_.data(), row, b.i), j(pull_.data(), row, b.j);
     LinkFrame<Lanes> const frame(read_rest(b), read_ends(pose.data(), b));
-    add_to_ends(b, wrench_of(frame, sum_times(i, j, {field(0), field(1), field(2)})), wrench);
+    add_to_ends(b, wrench_of(frame, sum_times(pull_, row, b, {field(0), field(1), field(2)})), wrench);
   }
 }
 

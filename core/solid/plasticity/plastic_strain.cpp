@@ -14,20 +14,15 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 /// Symmetric part of t n^T of four links, as two records of four numbers for each: xx yy zz xy, xz yz 0 0.
 struct Dyads {
   std::array<Lanes, lanes> low, high;
-  Dyads(Triple<Lanes> const& t, Triple<Lanes> const& n, Lanes const& reach) {
-    Lanes const half = Lanes(0.5) * reach;
-    Lanes a = reach * t.x * n.x, b = reach * t.y * n.y, c = reach * t.z * n.z, d = half * (t.x * n.y + t.y * n.x);
+  Dyads(Triple<Lanes> const& t, Triple<Lanes> const& n) {
+    Triple<Lanes> const half = Lanes(0.5) * n;
+    Lanes a = t.x * n.x, b = t.y * n.y, c = t.z * n.z, d = multiply_add(t.x, half.y, t.y * half.x);
     transpose(a, b, c, d);
     low = {a, b, c, d};
-    Lanes e = half * (t.x * n.z + t.z * n.x), f = half * (t.y * n.z + t.z * n.y), g(0.0), h(0.0);
+    Lanes e = multiply_add(t.x, half.z, t.z * half.x), f = multiply_add(t.y, half.z, t.z * half.y), g(0.0), h(0.0);
     transpose(e, f, g, h);
     high = {e, f, g, h};
   }
-};
-
-/// A tensor with room for two additions of four numbers.
-struct alignas(64) Tensor {
-  std::array<double, 8> c{};
 };
 
 }  // namespace
@@ -40,7 +35,7 @@ PlasticStrain::PlasticStrain(Mesh const& mesh, LinkStore const& links, std::span
       mesh_link_(mesh_link.begin(), mesh_link.end()),
       particles_(ids.size()),
       strain_(particles_ + 1),
-      followed_(particles_ + 1),
+      changed_(particles_ + 1),
       free_faces_(particles_ + 1),
       blocks_(links.records().size()) {
   for (std::size_t k = 0; k < links.count(); ++k) {
@@ -81,24 +76,27 @@ void PlasticStrain::gather_free_faces(std::size_t particle) {
 void PlasticStrain::free_share(std::size_t link, Real lost) {
   if (lost_.empty()) lost_.assign(links_.count(), 0);
   lost_[link] = lost;
+  links_changed_ = true;
   for (Index const end : {links_.end_i(link), links_.end_j(link)})
     if (at(end) < particles_) gather_free_faces(at(end));
 }
 
 void PlasticStrain::follow() {
+  if (!some_changed_) return;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     LinkBlock const& ends = links_.records()[b];
     OffsetBlock& block = blocks_[b];
     for (std::size_t k = 0; k < lanes && b * lanes + k < links_.count(); ++k) {
       std::size_t const i = at(ends.i[k]), j = std::min(at(ends.j[k]), particles_);
-      if (strain_[i] == followed_[i] && strain_[j] == followed_[j]) continue;
+      if (!changed_[i] && !changed_[j]) continue;
       Vec3 const n{block.field[0][k], block.field[1][k], block.field[2][k]};
       Vec3 const offset = (block.field[3][k] * strain_[i] + block.field[4][k] * strain_[j]) * n;
       for (std::size_t d = 0; d < 3; ++d) block.field[5 + d][k] = offset[static_cast<int>(d)];
-      block.strained = true;
+      block.strained = links_changed_ = true;
     }
   }
-  followed_ = strain_;
+  std::fill(changed_.begin(), changed_.end(), 0);
+  some_changed_ = 0;
 }
 
 void PlasticStrain::add_opened_volume(std::span<double> opened) const {
@@ -143,24 +141,31 @@ Real PlasticStrain::slab_energy(Index particle) const {
   return slab_[at(particle)].shear * slab_[at(particle)].volume * sum;
 }
 
-void PlasticStrain::driving_stress(std::span<Pose const> pose, std::span<double const> pressure,
-                                   std::span<Symmetric> to) const {
-  std::vector<Tensor> sum(pose.size());
+void PlasticStrain::sum_links(std::span<Pose const> pose) {
+  link_sum_.assign(pose.size(), {});
   for (std::size_t n = 0; n < blocks_.size(); ++n) {
     LinkBlock const& b = links_.records()[n];
     LinkOffset<Lanes> const plastic = read(blocks_[n]);
     Triple<Lanes> const t = driving_force(read_rest(b), read_ends(pose.data(), b), plastic);
-    Dyads const to_i(t, plastic.normal, plastic.reach_i), to_j(t, plastic.normal, plastic.reach_j);
+    Dyads const dyads(t, plastic.normal);
+    auto const add = [&](Index end, double reach, std::size_t k) {
+      double* to = link_sum_[at(end)].c.data();
+      multiply_add(Lanes(reach), dyads.low[k], Lanes::load_aligned(to)).store_aligned(to);
+      multiply_add(Lanes(reach), dyads.high[k], Lanes::load_aligned(to + 4)).store_aligned(to + 4);
+    };
     for (std::size_t k = 0; k < lanes; ++k) {
-      double *i = sum[at(b.i[k])].c.data(), *j = sum[at(b.j[k])].c.data();
-      add_to(i, to_i.low[k]);
-      add_to(i + 4, to_i.high[k]);
-      add_to(j, to_j.low[k]);
-      add_to(j + 4, to_j.high[k]);
+      add(b.i[k], blocks_[n].field[3][k], k);
+      add(b.j[k], blocks_[n].field[4][k], k);
     }
   }
+  links_changed_ = false;
+}
+
+void PlasticStrain::driving_stress(std::span<Pose const> pose, std::span<double const> pressure,
+                                   std::span<Symmetric> to, bool same_poses) {
+  if (!same_poses || links_changed_) sum_links(pose);
   for (std::size_t p = 0; p < to.size(); ++p) {
-    std::copy_n(sum[p].c.begin(), 6, to[p].c.begin());
+    std::copy_n(link_sum_[p].c.begin(), 6, to[p].c.begin());
     to[p] = to[p] - pressure[p] * free_faces_[p];
     for (int d = mesh_.dimension; d < 3; ++d) {
       Vec3 across{}, other;
@@ -173,8 +178,8 @@ void PlasticStrain::driving_stress(std::span<Pose const> pose, std::span<double 
 }
 
 std::size_t PlasticStrain::bytes() const {
-  return particles_ * (3 * sizeof(Symmetric) + sizeof(Slab)) + blocks_.size() * sizeof(OffsetBlock) +
-         lost_.size() * sizeof(Real);
+  return particles_ * (2 * sizeof(Symmetric) + sizeof(Slab)) + blocks_.size() * sizeof(OffsetBlock) +
+         lost_.size() * sizeof(Real) + link_sum_.size() * sizeof(Tensor);
 }
 
 }  // namespace brisance::solid

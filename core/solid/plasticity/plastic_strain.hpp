@@ -19,9 +19,14 @@ class PlasticStrain {
   PlasticStrain(Mesh const& mesh, LinkStore const& links, std::span<GlobalId const> ids,
                 std::span<std::size_t const> mesh_link);
 
-  /// One entry per local particle. After a change: `follow`.
-  std::span<Symmetric> strain() { return std::span(strain_).first(particles_); }
-  std::span<Symmetric const> strain() const { return std::span(strain_).first(particles_); }
+  std::span<Symmetric const> strain() const { return std::span(strain_).first(particles_); }  ///< of local particles
+  /// `follow` afterwards.
+  void set_strain(Index particle, Symmetric const& strain) {
+    auto const p = static_cast<std::size_t>(particle);
+    if (strain_[p] == strain) return;
+    strain_[p] = strain;
+    changed_[p] = some_changed_ = 1;
+  }
   /// Offsets of links and openings of particles for the present strains.
   void follow();
   /// Takes note that the share `lost` of the face of a link is free on both sides; `follow` afterwards.
@@ -37,14 +42,21 @@ class PlasticStrain {
 
   /// V sigma_d = -dE/de of the first `count` particles, J, before it is made a deviator. `pressure`: lambda epsilon,
   /// Pa. Tractions on free faces add theirs: see add_traction.
-  void driving_stress(std::span<Pose const> pose, std::span<double const> pressure, std::span<Symmetric> to) const;
+  /// `same_poses`: those of the last call; the sweep over links is then left out when nothing else has changed either.
+  void driving_stress(std::span<Pose const> pose, std::span<double const> pressure, std::span<Symmetric> to,
+                      bool same_poses);
   Real volume(Index particle) const { return slab_[static_cast<std::size_t>(particle)].volume; }
   std::size_t bytes() const;
 
  private:
+  void sum_links(std::span<Pose const> pose);
   struct alignas(32) OffsetBlock {
     std::array<std::array<double, lanes>, 8> field{};  // normal, reach_i, reach_j, offset
     bool strained = false;                             // some offset of the block is not zero
+  };
+  /// A tensor with room for two additions of four numbers.
+  struct alignas(64) Tensor {
+    std::array<double, 8> c{};
   };
   /// In 2D and 1D the sides of the slab are rigid walls: half links that never open.
   struct Slab {
@@ -59,11 +71,15 @@ class PlasticStrain {
   std::vector<GlobalId> ids_;
   std::vector<std::size_t> mesh_link_;
   std::size_t particles_;
-  std::vector<Symmetric> strain_, followed_;  // one more than particles: the wall
-  std::vector<Symmetric> free_faces_;         // sum of S d n n over free faces and free shares of links, m3
-  std::vector<Real> lost_;                    // of the links; empty while all are whole
+  std::vector<Symmetric> strain_;  // one more than particles: the wall
+  std::vector<char> changed_;      // since the last follow
+  char some_changed_ = 0;
+  std::vector<Symmetric> free_faces_;  // sum of S d n n over free faces and free shares of links, m3
+  std::vector<Real> lost_;             // of the links; empty while all are whole
   std::vector<Slab> slab_;
   std::vector<OffsetBlock> blocks_;
+  std::vector<Tensor> link_sum_;  // of the links of each particle, in the driving stress
+  bool links_changed_ = true;     // since the last sum
 };
 
 }  // namespace brisance::solid

@@ -31,6 +31,7 @@ Plasticity::Plasticity(SolidConfig const& config, Solid& solid, parallel::Comm& 
   stress_.resize(owned);
   trial_.resize(owned);
   rows_.assign(at(solid.count()) * row, 0);
+  threshold_.assign(owned, -1);
 }
 
 PlasticLaw const* Plasticity::law_of(Index particle) const {
@@ -42,7 +43,13 @@ Symmetric Plasticity::stress(Index particle) const {
   return (1 / solid_.plastic().volume(particle)) * deviator(stress_[at(particle)]);
 }
 
+void Plasticity::set_threshold(Index particle) {
+  PlasticLaw const* law = law_of(particle);
+  if (law) threshold_[at(particle)] = std::pow(law->threshold(state_[at(particle)]), 2) / 1.5;
+}
+
 void Plasticity::start() {
+  for (Index p = 0; p < solid_.owned(); ++p) set_threshold(p);
   spread();
   solid_.compute_forces();
   solid_.driving_stress(stress_);
@@ -54,9 +61,11 @@ void Plasticity::spread() {
     rows_[row * p + 6] = state_[p].damage;
   }
   solid_.exchange_rows(rows_, row);
-  auto const strain = solid_.plastic().strain();
-  for (std::size_t p = 0; p < strain.size(); ++p)
-    std::copy_n(rows_.begin() + static_cast<std::ptrdiff_t>(row * p), 6, strain[p].c.begin());
+  for (Index p = 0; p < solid_.count(); ++p) {
+    Symmetric strain;
+    std::copy_n(rows_.begin() + static_cast<std::ptrdiff_t>(row * at(p)), 6, strain.c.begin());
+    solid_.plastic().set_strain(p, strain);
+  }
   solid_.plastic().follow();
 }
 
@@ -64,12 +73,14 @@ void Plasticity::flow(Real dt) {
   solid_.compute_strains();
   solid_.driving_stress(trial_);
   for (Index p = 0; p < solid_.owned(); ++p) {
+    if (threshold_[at(p)] < 0) continue;
     PlasticLaw const* law = law_of(p);
-    if (!law) continue;
     PlasticState& state = state_[at(p)];
     Real const volume = solid_.plastic().volume(p);
     Symmetric const stress = (1 / volume) * deviator(trial_[at(p)]);
-    PlasticFlow const flow = law->flow(stress, state, dt);
+    Symmetric const driving = law->relative(stress, state);
+    bool const yields = contract(driving, driving) > threshold_[at(p)];
+    PlasticFlow const flow = yields ? law->flow(stress, state, dt) : PlasticFlow{};
     if (flow.dp > 0) {
       state.strain = state.strain + flow.strain;
       state.p += flow.dp;
@@ -85,12 +96,13 @@ void Plasticity::flow(Real dt) {
 }
 
 void Plasticity::settle() {
-  solid_.driving_stress(trial_);
+  solid_.driving_stress(trial_, true);
   for (Yielding const& y : yielding_) {
     Real const volume = solid_.plastic().volume(y.particle);
     Symmetric const mean = 0.5 * (stress_[at(y.particle)] + trial_[at(y.particle)]);
     Real const work = contract(mean, y.flow.strain) / volume;
     dissipated_.add(volume * law_of(y.particle)->settle(state_[at(y.particle)], y.flow, work));
+    set_threshold(y.particle);
   }
   yielding_.clear();
   std::swap(stress_, trial_);

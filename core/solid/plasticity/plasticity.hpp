@@ -38,6 +38,7 @@ class Plasticity : public Effect {
   };
   PlasticLaw const* law_of(Index particle) const;
   void spread();
+  void set_threshold(Index particle);
   void keep(Plan& plan);
   std::vector<double> pack() const;
   void unpack(std::span<double const> rows);
@@ -52,6 +53,7 @@ class Plasticity : public Effect {
   std::vector<Symmetric> stress_, trial_;  // V times the driving stress, owned
   std::vector<double> rows_;               // strain and damage of all local particles, for ghosts
   std::vector<Yielding> yielding_;         // since the last settle
+  std::vector<Real> threshold_;            // square of the yield stress at rest over 3/2, owned; -1: elastic
   parallel::ExactSum dissipated_;
   std::int64_t links_broken_ = 0;
 };

@@ -61,6 +61,7 @@ void Plasticity::keep(Plan& plan) {
   keep.restore = [this, saved] {
     state_ = saved->state;
     stress_ = saved->stress;
+    for (Index p = 0; p < solid_.owned(); ++p) set_threshold(p);
     yielding_.clear();
     dissipated_ = {};
     links_broken_ = 0;

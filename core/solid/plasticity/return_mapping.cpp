@@ -21,8 +21,8 @@ Real PlasticLaw::yield_stress(PlasticPoint const& at) const {
 }
 
 PlasticFlow PlasticLaw::flow(Symmetric const& stress, PlasticState const& state, Real dt) const {
-  Symmetric const relative = stress - config_.kinematic_modulus * state.strain;
-  Real const size = equivalent(relative);
+  Symmetric const driving = relative(stress, state);
+  Real const size = equivalent(driving);
   auto const over = [&](Real dp) {
     return size - stiffness_ * dp - yield_stress({state.p + dp, dp / dt, state.temperature});
   };
@@ -41,7 +41,7 @@ PlasticFlow PlasticLaw::flow(Symmetric const& stress, PlasticState const& state,
     if (stuck > 1) at_high *= 0.5;
     if (stuck < -1) at_low *= 0.5;
   }
-  return {dp, (1.5 * dp / size) * relative};
+  return {dp, (1.5 * dp / size) * driving};
 }
 
 Real PlasticLaw::stored(Symmetric const& strain, Real p) const {

@@ -29,6 +29,12 @@ class PlasticLaw {
 
   /// sigma_y, Pa.
   Real yield_stress(PlasticPoint const& at) const;
+  /// Yield stress at rest: below it nothing flows, Pa.
+  Real threshold(PlasticState const& state) const { return yield_stress({state.p, 0, state.temperature}); }
+  /// s - X, Pa.
+  Symmetric relative(Symmetric const& stress, PlasticState const& state) const {
+    return stress - config_.kinematic_modulus * state.strain;
+  }
   /// Flow that brings the driving stress `stress` (a deviator, Pa) back to the yield surface within `dt`: solves
   /// sigma_eq - sigma_y(p + dp) - (3 G + 3/2 H) dp = 0.
   PlasticFlow flow(Symmetric const& stress, PlasticState const& state, Real dt) const;

@@ -185,9 +185,10 @@ void scatter(Solid& solid, Random& random) {
     p.x += 0.3 * random.vector();
     p.q = testing::rotation(random.vector());
   }
-  for (Symmetric& e : solid.plastic().strain()) {
+  for (Index p = 0; p < solid.count(); ++p) {
+    Symmetric e;
     for (double& c : e.c) c = 0.05 * random();
-    e = deviator(e);
+    solid.plastic().set_strain(p, deviator(e));
   }
   solid.plastic().follow();
 }
@@ -221,7 +222,8 @@ Real slope(DuctileSolid& body, Change change) {
   std::vector<Symmetric> const strain(body.solid.plastic().strain().begin(), body.solid.plastic().strain().end());
   auto back = [&] {
     body.solid.restore(saved);
-    std::copy(strain.begin(), strain.end(), body.solid.plastic().strain().begin());
+    for (Index p = 0; p < body.solid.count(); ++p)
+      body.solid.plastic().set_strain(p, strain[static_cast<std::size_t>(p)]);
     body.solid.plastic().follow();
   };
   auto at = [&](Real s) {
@@ -281,7 +283,11 @@ TEST(Plasticity, ForcesAndDrivingStressAreTheGradientOfTheEnergy) {
             scale = max(scale, max(std::abs(exact[at].force[d]), std::abs(exact[at].torque[d])));
           }
           for (std::size_t c = 0; c < 6; ++c) {
-            Real const s = slope(body, [&](Real ds) { solid.plastic().strain()[at].c[c] += ds; });
+            Real const s = slope(body, [&](Real ds) {
+              Symmetric e = solid.plastic().strain()[at];
+              e.c[c] += ds;
+              solid.plastic().set_strain(p, e);
+            });
             Real const got = (c < 3 ? 1 : 2) * driving[at].c[c];
             stress_error = max(stress_error, std::abs(s - got));
             stress_scale = max(stress_scale, std::abs(got));
