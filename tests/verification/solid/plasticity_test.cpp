@@ -307,6 +307,72 @@ TEST(Plasticity, ForcesAndDrivingStressAreTheGradientOfTheEnergy) {
       }
 }
 
+/// Links that break give up what the energy loses at fixed positions, and every one something.
+TEST(Plasticity, DuctileBreaksReleaseEnergy) {
+  for (Real nu : {-0.9, 0.0, 0.3, 0.48}) {
+    PlasticityConfig brittle;
+    brittle.yield_stress = 1e-3;
+    brittle.failure.emplace();
+    brittle.failure->d1 = 1e-6, brittle.failure->d2 = 0.5, brittle.failure->d3 = -3;
+    SolidConfig config = block(nu, true);
+    config.material["m"].plasticity = brittle;
+    auto const comm = parallel::serial();
+    DuctileSolid body(config, 3, 1, *comm);
+    body.start();
+    Random random(5);
+    for (Index p = 0; p < body.solid.owned(); ++p) {
+      Pose& pose = body.solid.pose()[static_cast<std::size_t>(p)];
+      pose.x += 0.02 * random.vector();
+      pose.q = testing::rotation(0.02 * random.vector());
+    }
+    int breaks = 0;
+    Real worst = 0;
+    for (int n = 0; n < 20; ++n) {
+      for (Pose& p : body.solid.pose().first(static_cast<std::size_t>(body.solid.owned())))
+        p.x += 2e-3 * random.vector();
+      body.plasticity().flow(0.1);
+      body.solid.compute_forces();
+      body.plasticity().settle();
+      Real const before = elastic(body), lost = body.plasticity().dissipated().value();
+      if (!body.plasticity().fail()) continue;
+      ++breaks;
+      Real const released = body.plasticity().dissipated().value() - lost, after = elastic(body);
+      EXPECT_GT(released, 0);
+      worst = max(worst, std::abs(before - after - released) / before);
+      body.plasticity().settle();
+    }
+    EXPECT_GT(breaks, 2);
+    EXPECT_TRUE(evidence::at_most("S25", "ductile breaks", "nu " + std::to_string(nu).substr(0, 4),
+                                  "|released - change of E| / E", worst, 1e-13));
+  }
+}
+
+/// In the plane the limit load of a perfectly plastic bar is 2/sqrt(3) of its yield stress: the sides of the slab hold.
+TEST(Plasticity, LimitLoadInPlaneStrain) {
+  PlasticityConfig perfect;
+  perfect.yield_stress = 1e-3;
+  for (Real share : {0.98, 1.02}) {
+    auto const comm = parallel::serial();
+    SolidConfig config = bar({6, 2, 1}, 0.3, perfect);
+    DuctileSolid body(config, 2, 3000, *comm);
+    body.start();
+    Real const top = share * 2 / std::sqrt(3.0) * 1e-3;
+    while (!body.simulation.finished()) {
+      Real const s = min(body.simulation.clock().time / 1500, 1);
+      body.pull(top * s * s * (3 - 2 * s));
+      body.simulation.pair();
+      body.slow(0.02);
+    }
+    Real const elastic_strain = top * (1 - 0.09);
+    if (share < 1) {
+      EXPECT_TRUE(evidence::at_most("S30", "bar in plane strain", "0.98 of the limit load", "e over its elastic part",
+                                    elongation(body) / elastic_strain, 3));
+    } else {
+      EXPECT_GT(elongation(body) / elastic_strain, 10);
+    }
+  }
+}
+
 TEST(Plasticity, TurningABodyTurnsNothingElse) {
   auto const comm = parallel::serial();
   SolidConfig config = block(0.3, true);
