@@ -12,8 +12,9 @@
 namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
-  static std::vector<std::string> const names{"fluid.euler", "fluid.viscosity", "fluid.gravity",      "solid.motion",
-                                              "solid.links", "solid.gravity",   "coupling.cut_cells", "output.gauges"};
+  static std::vector<std::string> const names{
+      "fluid.euler",   "fluid.viscosity",  "fluid.gravity",  "solid.motion",       "solid.links",
+      "solid.gravity", "solid.plasticity", "solid.fracture", "coupling.cut_cells", "output.gauges"};
   return names;
 }
 
@@ -167,7 +168,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
                 "fluid.products: cut cells do not carry products yet; use charges of model \"balloon\" beside solids.");
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
-    w.surface = std::make_unique<solid::Surface>(*w.mesh);
+    w.surface = std::make_shared<solid::Surface>(*w.mesh);
   }
   if (coupled) require_clear_periodic_sides(scene, *grid, *w.mesh, *w.surface);
   if (coupled) require_gauges_in_the_gas(scene, *grid, *w.mesh);
@@ -179,9 +180,10 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     w.flow = std::make_unique<fluid::Flow>(*scene.fluid, *grid, std::vector<int>(owner.begin(), owner.begin() + blocks),
                                            comm);
   if (w.mesh)
-    w.solid =
-        std::make_unique<solid::Solid>(*w.mesh, *scene.solid, std::vector<int>(owner.begin() + blocks, owner.end()),
-                                       comm, w.dimension, coupled ? w.surface.get() : nullptr);
+    w.solid = std::make_unique<solid::Solid>(
+        *w.mesh, *scene.solid, std::vector<int>(owner.begin() + blocks, owner.end()), comm, w.dimension,
+        coupled ? w.surface.get() : nullptr,
+        scene.solid->breaks() ? solid::Solid::Opens::anywhere : solid::Solid::Opens::never);
   if (scene.fluid && scene.fluid->euler) w.euler = std::make_unique<fluid::Euler>(*scene.fluid->euler, *w.flow);
   if (scene.fluid && scene.fluid->viscosity) w.viscosity = std::make_unique<fluid::Viscosity>(*scene.fluid, *w.flow);
   if (scene.fluid && scene.fluid->gravity) w.gravity = std::make_unique<fluid::Gravity>(*scene.fluid->gravity, *w.flow);
@@ -190,7 +192,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (coupled) {
     fluid::GasState const& air = scene.fluid->ambient;
     w.cut_cells =
-        std::make_unique<coupling::CutCells>(*scene.coupling->cut_cells, *w.flow, *w.solid, *w.surface,
+        std::make_unique<coupling::CutCells>(*scene.coupling->cut_cells, *w.flow, *w.solid, w.surface,
                                              w.flow->gas().conserved(air.density, air.velocity, air.pressure), comm);
   }
   if (w.euler && w.cut_cells) w.euler->set_fluid_volume(w.cut_cells->fluid_volumes());

@@ -24,7 +24,7 @@ struct World {
   parallel::Comm* comm = nullptr;
   int dimension = 3;
   std::unique_ptr<solid::Mesh> mesh;
-  std::unique_ptr<solid::Surface> surface;
+  std::shared_ptr<solid::Surface const> surface;  ///< of the reference state, without broken links
   parallel::Partition partition;
   std::vector<Index> cut_cells_of_block;  ///< at the start
   std::unique_ptr<fluid::Flow> flow;

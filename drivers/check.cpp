@@ -191,6 +191,7 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
                               {"cells_across", c.cells_across},
                               {"density", c.density},
                               {"pressure", c.pressure}});
+    if (!world->plan.remarks().empty()) j["remarks"] = world->plan.remarks();
     if (scene.fluid) j["options"] = {{"fluid.sleep", world->flow->may_sleep()}};
     j["dt"] = {{"initial", dt}, {"limited_by", limited_by}};
     j["steps"] = std::ceil(steps);
@@ -224,6 +225,8 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
     fmt::print("  {}\n", fluid::describe(c, world->dimension));
     if (std::string const text = fluid::warning(c); !text.empty()) fmt::print("  warning: {}\n", text);
   }
+  if (!world->plan.remarks().empty()) fmt::print("\nremarks\n");
+  for (std::string const& text : world->plan.remarks()) fmt::print("  {}\n", text);
   fmt::print("\ntime step\n  {:.3g} s at the start, limited by {}; about {:.0f} steps to {:.3g} s\n", dt, limited_by,
              std::ceil(steps), scene.end_time);
   fmt::print("\npartition on {} ranks\n  imbalance (largest over mean):", options.ranks);

@@ -7,6 +7,7 @@
 
 #include "fluid/cell_fields.hpp"
 #include "fluid/rows.hpp"
+#include "parallel/error.hpp"
 
 namespace brisance::drivers {
 
@@ -19,6 +20,7 @@ Output::Output(World& world, Scene const& scene, std::string directory)
   if (world_.comm->rank() != 0) return;
   if (world_.flow) std::filesystem::create_directories(directory_ + "/fields");
   if (world_.solid) std::filesystem::create_directories(directory_ + "/solid");
+  start_tables();
 }
 
 void Output::write() {
@@ -29,6 +31,35 @@ void Output::write() {
   if (world_.solid) write_solid(directory_ + "/solid/" + name);
   frames_.push_back({clock.step, clock.time});
   write_series();
+  add_to_tables();
+}
+
+/// Rows up to the present step stay, as in history.csv: a run from the start has none.
+void Output::start_tables() {
+  for (Plan::Table const& table : world_.plan.tables()) {
+    std::string const path = directory_ + "/" + table.file;
+    std::string kept = table.header, line;
+    std::int64_t const step = world_.simulation->clock().step;
+    std::ifstream old(path);
+    if (step > 0 && std::getline(old, line))
+      while (std::getline(old, line))
+        if (std::atoll(line.c_str()) <= step) kept += line + "\n";
+    old.close();
+    std::ofstream file(path);
+    file << kept << std::flush;
+    require(file.good(), Failure::system, path + ": cannot be written (is the disk full?)");
+  }
+}
+
+void Output::add_to_tables() {
+  for (Plan::Table const& table : world_.plan.tables()) {
+    std::string const rows = table.rows(world_.simulation->clock());
+    if (world_.comm->rank() != 0) continue;
+    std::string const path = directory_ + "/" + table.file;
+    std::ofstream file(path, std::ios::app);
+    file << rows << std::flush;
+    require(file.good(), Failure::system, path + ": cannot be written (is the disk full?)");
+  }
 }
 
 void Output::resume(double time) {
@@ -74,6 +105,12 @@ void Output::write_solid(std::string const& path) {
   // Polygons of the particles' faces. Points, faces and particles are rows numbered by global ids: no rank shows.
   solid::Mesh const& mesh = *world_.mesh;
   solid::Solid const& solid = *world_.solid;
+  std::vector<Plan::ParticleField> const& fields = world_.plan.particle_fields();
+  std::vector<std::vector<double>> of_particle(fields.size()), of_face(fields.size());
+  for (std::size_t n = 0; n < fields.size(); ++n) {
+    of_particle[n].resize(static_cast<std::size_t>(solid.owned()));
+    fields[n].fill(of_particle[n]);
+  }
   std::int64_t points = 0, entries = 0, faces = 0;
   std::vector<double> xyz, velocity;
   std::vector<std::int64_t> topology, particle, body;
@@ -99,6 +136,7 @@ void Output::write_solid(std::string const& path) {
         particle.push_back(p);
         body.push_back(mesh.particle(p).body);
         velocity.insert(velocity.end(), {u.x, u.y, u.z});
+        for (std::size_t n = 0; n < fields.size(); ++n) of_face[n].push_back(of_particle[n][local]);
       }
       point_rows.push_back({points, nv});
       entry_rows.push_back({entries, ne});
@@ -112,6 +150,7 @@ void Output::write_solid(std::string const& path) {
   file.rows_int("particle", faces, 1, face_rows, particle);
   file.rows_int("body", faces, 1, face_rows, body);
   file.rows("velocity", faces, 3, face_rows, velocity);
+  for (std::size_t n = 0; n < fields.size(); ++n) file.rows(fields[n].name, faces, 1, face_rows, of_face[n]);
   file.attribute("time", world_.simulation->clock().time);
   file.close();
 }
@@ -174,6 +213,11 @@ void Output::write_series() {
             "    <Attribute Name=\"{}\" Center=\"Cell\"><DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"8\" "
             "Dimensions=\"{}\">{}:/{}</DataItem></Attribute>\n",
             name, faces, file, name);
+      for (Plan::ParticleField const& field : world_.plan.particle_fields())
+        grids += fmt::format(
+            "    <Attribute Name=\"{0}\" Center=\"Cell\"><DataItem Format=\"HDF\" Precision=\"8\" "
+            "Dimensions=\"{1}\">{2}:/{0}</DataItem></Attribute>\n",
+            field.name, faces, file);
       grids += fmt::format(
           "    <Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Cell\"><DataItem Format=\"HDF\" "
           "Precision=\"8\" Dimensions=\"{} 3\">{}:/velocity</DataItem></Attribute>\n   </Grid>\n",

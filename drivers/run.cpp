@@ -150,6 +150,7 @@ int execute(Job const& job, parallel::Comm& comm) {
     spdlog::info("{} cells in {} blocks, {} ranks", world->flow->grid().cell_count(), world->flow->grid().block_count(),
                  comm.size());
   if (world->mesh) spdlog::info("{} particles, {} links", world->mesh->size(), world->mesh->links.size());
+  for (std::string const& text : world->plan.remarks()) spdlog::info("{}", text);
 
   stop_signal = 0;
   for (int const s : {SIGTERM, SIGINT, SIGUSR1}) std::signal(s, note_signal);

@@ -2,6 +2,7 @@
 // shown.
 #pragma once
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,17 @@ class Plan {
     std::function<void()> save, restore;
     std::function<void(parallel::Digest&)> digest;
   };
+  /// A table of the output directory that grows by rows at every output time.
+  struct Table {
+    std::string file, header;  ///< "fragments.csv"; the header ends in a newline, its first column is `step`
+    /// Collective. Whole rows on rank 0, nothing elsewhere.
+    std::function<std::string(Clock const&)> rows;
+  };
+  /// A figure per particle in the output of the solid.
+  struct ParticleField {
+    std::string name;
+    std::function<void(std::span<double>)> fill;  ///< owned particles, in their order
+  };
   struct EffectCost {
     std::string name;
     Real wall_s = 0;
@@ -56,6 +68,12 @@ class Plan {
   void health(std::function<Verdict(Clock const&)> judge) { health_.push_back(std::move(judge)); }
   void keep(Keep k) { kept_.push_back(std::move(k)); }
   void account(std::function<void(Ledger&)> add) { accounts_.push_back(std::move(add)); }
+  void table(Table t) { tables_.push_back(std::move(t)); }
+  void particle_field(std::string name, std::function<void(std::span<double>)> fill) {
+    particle_fields_.push_back({std::move(name), std::move(fill)});
+  }
+  /// What a user should know of the effect before the run: a line each, the same on every rank.
+  void remark(std::string text) { remarks_.push_back(std::move(text)); }
   /// During Stage::fracture, on all ranks alike: the law of force has changed, so Stage::forces and Stage::contact run
   /// once more before the next step.
   void ask_for_forces() { forces_asked_ = true; }
@@ -66,6 +84,9 @@ class Plan {
   std::vector<std::function<Verdict(Clock const&)>> const& judges() const { return health_; }
   std::vector<Keep> const& kept() const { return kept_; }
   std::vector<std::function<void(Ledger&)>> const& accounts() const { return accounts_; }
+  std::vector<Table> const& tables() const { return tables_; }
+  std::vector<ParticleField> const& particle_fields() const { return particle_fields_; }
+  std::vector<std::string> const& remarks() const { return remarks_; }
   std::vector<EffectCost>& effects() { return effects_; }
   std::vector<EffectCost> const& effects() const { return effects_; }
 
@@ -76,6 +97,9 @@ class Plan {
   std::vector<std::function<Verdict(Clock const&)>> health_;
   std::vector<Keep> kept_;
   std::vector<std::function<void(Ledger&)>> accounts_;
+  std::vector<Table> tables_;
+  std::vector<ParticleField> particle_fields_;
+  std::vector<std::string> remarks_;
   bool forces_asked_ = false;
 };
 

@@ -4,26 +4,15 @@
 #include <cmath>
 
 #include "core/base/errors.hpp"
+#include "core/solid/fracture/fracture.hpp"
 #include "core/solid/plasticity/plasticity.hpp"
-#include "parallel/archive.hpp"
+#include "core/solid/rows.hpp"
 
 namespace brisance::solid {
 
 namespace {
 
 constexpr std::size_t bytes_per_link = 176;  // ends, stiffness, area, arms, normal, bending tensor
-
-/// Consecutive ids as ranges of rows.
-std::vector<parallel::Range> rows_of(std::span<GlobalId const> ids) {
-  std::vector<parallel::Range> ranges;
-  for (GlobalId const id : ids) {
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == id)
-      ++ranges.back().count;
-    else
-      ranges.push_back({id, 1});
-  }
-  return ranges;
-}
 
 }  // namespace
 
@@ -104,6 +93,12 @@ std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Sol
       if (material.plasticity && material.plasticity->failure)
         refuse_damage(config, material.plasticity->at, "solid.material." + name + ".plasticity.failure");
     effects.push_back(std::make_unique<Plasticity>(config, solid, comm));
+  }
+  if (config.fracture) {
+    require(config.links.has_value(), config.fracture->at,
+            "solid.fracture breaks links, and the scene has none: add links = {} to [solid]");
+    refuse_damage(config, config.fracture->at, "solid.fracture");
+    effects.push_back(std::make_unique<Fracture>(*config.fracture, solid, comm));
   }
   return effects;
 }

@@ -22,7 +22,7 @@ Mat3 inverse(Mat3 const& m) {
 }  // namespace
 
 Solid::Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner_of_particle, parallel::Comm& comm,
-             int dimension, Surface const* surface)
+             int dimension, Surface const* surface, Opens opens)
     : mesh_(mesh),
       comm_(comm),
       dimension_(dimension),
@@ -31,7 +31,7 @@ Solid::Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner
       owner_(std::move(owner_of_particle)) {
   if (gravity_)
     for (int d = dimension; d < 3; ++d) (*gravity_)[d] = 0;
-  choose_particles(surface);
+  choose_particles(surface, opens);
   store_particles();
   store_links();
   if (volumetric_ && config.links && config.links->volumetric == "consistent" && ConsistentStrain::needed(mesh))
@@ -40,7 +40,7 @@ Solid::Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner
   compute_forces();
 }
 
-void Solid::choose_particles(Surface const* surface) {
+void Solid::choose_particles(Surface const* surface, Opens opens) {
   int const me = comm_.rank();
   // 1: owned, 2: first layer (its strains are computed here), 3: second layer and vertex groups (poses only).
   std::vector<char> layer(at(mesh_.size()), 0);
@@ -77,6 +77,17 @@ void Solid::choose_particles(Surface const* surface) {
           ghosts.push_back(c.particle);
         }
     }
+  if (surface && opens == Opens::anywhere) {
+    auto const neighbours = Surface::neighbours(mesh_);
+    for (GlobalId p = 0; p < mesh_.size(); ++p) {
+      if (owner(p) != me) continue;
+      for (GlobalId const q : neighbours[at(p)])
+        if (!layer[at(q)]) {
+          layer[at(q)] = 3;
+          ghosts.push_back(q);
+        }
+    }
+  }
   std::sort(ghosts.begin(), ghosts.end());
   ids_.insert(ids_.end(), ghosts.begin(), ghosts.end());
   count_ = static_cast<Index>(ids_.size());
@@ -184,9 +195,12 @@ void Solid::compute_strains() {
 void Solid::compute_forces() {
   compute_strains();
   std::fill(wrench_.begin(), wrench_.end(), Wrench{});
-  links_.add_wrench(pose_, pressure_, wrench_);
+  if (damageable())
+    links_.add_wrench(pose_, pressure_, wrench_, gaps_);
+  else
+    links_.add_wrench(pose_, pressure_, wrench_);
   if (consistent_) consistent_->add_wrench(pose_, wrench_);
-  if (plastic_) plastic_->add_wrench(pose_, wrench_);
+  if (plastic_) plastic_->add_wrench(pose_, wrench_, gaps_);
   for (LoadedFace const& face : loaded_) {
     Wrench& w = wrench_[at(face.particle)];
     Quaternion const& q = pose_[at(face.particle)].q;

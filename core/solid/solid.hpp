@@ -38,10 +38,12 @@ struct StableStep {
 /// order. Bits: the state of owned particles does not depend on how particles are dealt to ranks.
 class Solid {
  public:
+  /// May links break, so that particles inside come to share vertices of the boundary?
+  enum class Opens { never, anywhere };
   /// Collective. `mesh` must outlive the solid. Ghosts: two layers of linked neighbours and, with a surface, every
   /// particle that shares a boundary vertex with an owned one.
   Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner_of_particle, parallel::Comm& comm,
-        int dimension, Surface const* surface = nullptr);
+        int dimension, Surface const* surface = nullptr, Opens opens = Opens::never);
 
   Mesh const& mesh() const { return mesh_; }
   Index owned() const { return owned_; }
@@ -107,7 +109,10 @@ class Solid {
   void driving_stress(std::span<Symmetric> to, bool same_poses = false);
 
   /// Makes room for damage; without it every link is whole for ever.
-  void allow_damage() { intact_.resize(links_.count(), 1.0); }
+  void allow_damage() {
+    intact_.resize(links_.count(), 1.0);
+    gaps_.resize(links_.blocks());
+  }
   bool damageable() const { return !intact_.empty(); }
   /// 1 - d of a link: 1 whole, 0 broken.
   Real intact(std::size_t link) const { return intact_.empty() ? 1 : intact_[link]; }
@@ -115,6 +120,15 @@ class Solid {
   /// on both sides. Every rank that has the link must do the same. Forces follow at the next compute_forces.
   /// Source: theory/solid.md section 14.  Expects: allow_damage.
   void weaken(std::size_t link, Real intact);
+  std::size_t broken() const { return broken_; }  ///< links of this rank of which nothing is left
+  /// Gaps of the links of this rank, four to a block, at the last compute_forces; `opened` and `flexure` are those of
+  /// what is left of a link.  Expects: allow_damage.
+  std::span<GapBlock const> gaps() const { return gaps_; }
+  /// Ends of a link; the wall is at rest at the origin.
+  LinkEnds<double> link_ends(std::size_t link) const {
+    return ends_of(pose_[static_cast<std::size_t>(links_.end_i(link))],
+                   pose_[static_cast<std::size_t>(links_.end_j(link))]);
+  }
   /// Does a link that is not broken join two particles? Expects: one of them owned or in the first layer of ghosts.
   bool linked(GlobalId a, GlobalId b) const;
 
@@ -139,7 +153,9 @@ class Solid {
   /// The bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
   StableStep link_limit() const;
 
-  // Parts of the energy, J: of the volumetric strain of a particle, and of a link.
+  // The parts of the energy, J: of a particle with its rotation, of its volumetric strain (owned and first layer, at
+  // the last compute_forces), and of a link.
+  Real kinetic_energy(Index particle) const;
   Real volumetric_energy(Index particle) const {
     auto const at = static_cast<std::size_t>(particle);
     return 0.5 * pressure_[at] * opened_[at];
@@ -166,7 +182,7 @@ class Solid {
   void unpack(std::span<GlobalId const> ids, std::span<double const> rows);
 
  private:
-  void choose_particles(Surface const* surface);
+  void choose_particles(Surface const* surface, Opens opens);
   void store_particles();
   void store_links();
   LinkRest<double> rest_of(Link const& link) const;
@@ -205,7 +221,9 @@ class Solid {
   std::vector<std::size_t> clamps_;     // links to the wall whose particle is owned
 
   LinkStore links_;
-  std::vector<double> intact_;                    // 1 - d of the links; empty without damage
+  std::vector<double> intact_;  // 1 - d of the links; empty without damage
+  std::size_t broken_ = 0;
+  std::vector<GapBlock> gaps_;                    // empty without damage
   bool volumetric_ = false;                       // some lambda is not zero
   std::unique_ptr<PlasticStrain> plastic_;        // null: elastic
   std::unique_ptr<ConsistentStrain> consistent_;  // null: basic volumetric term

@@ -1,5 +1,7 @@
 #include "core/solid/solid_config.hpp"
 
+#include <algorithm>
+
 #include "core/base/keys.hpp"
 
 namespace brisance::solid {
@@ -69,6 +71,12 @@ void BodyConfig::keys(Keys<BodyConfig>& k) {
   k("prescribed", &BodyConfig::prescribed, "", "boxes: particles with their centre inside move as prescribed");
 }
 
+bool SolidConfig::breaks() const {
+  return fracture || std::any_of(material.begin(), material.end(), [](auto const& named) {
+           return named.second.plasticity && named.second.plasticity->failure;
+         });
+}
+
 void SolidConfig::keys(Keys<SolidConfig>& k) {
   k("material", &SolidConfig::material, "", "materials by name");
   k("body", &SolidConfig::body, "", "bodies; they may touch, not overlap");
@@ -76,6 +84,7 @@ void SolidConfig::keys(Keys<SolidConfig>& k) {
   k("links", &SolidConfig::links, "", "elastic links between the particles of a body");
   k("motion", &SolidConfig::motion, "", "time integration of the particles");
   k("gravity", &SolidConfig::gravity, "m/s2", "acceleration of gravity");
+  k("fracture", &SolidConfig::fracture, "", "links weaken and break by the criteria of its laws");
 }
 
 }  // namespace brisance::solid

@@ -9,6 +9,7 @@
 #include "core/base/location.hpp"
 #include "core/base/vec3.hpp"
 #include "core/solid/bonds.hpp"
+#include "core/solid/fracture/fracture_config.hpp"
 #include "core/solid/plasticity/plasticity_config.hpp"
 
 namespace brisance {
@@ -82,6 +83,8 @@ struct SolidConfig {
   std::optional<LinksConfig> links;
   MotionConfig motion;
   std::optional<Vec3> gravity;  ///< m/s2
+  std::optional<FractureConfig> fracture;
+  bool breaks() const;  ///< may links break?
   Location at;
   static void keys(Keys<SolidConfig>& k);
 };

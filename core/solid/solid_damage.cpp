@@ -36,6 +36,8 @@ void Solid::set_bulk(GlobalId particle) {
 }
 
 void Solid::weaken(std::size_t link, Real intact) {
+  if (intact_[link] == 0) --broken_;
+  if (intact == 0) ++broken_;
   intact_[link] = intact;
   Link const& of = mesh_.links[mesh_link_[link]];
   LinkRest<double> rest = rest_of(of);

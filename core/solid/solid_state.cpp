@@ -54,14 +54,19 @@ std::size_t Solid::bytes() const {
 
 std::size_t Solid::link_bytes() const { return links_.bytes() + (consistent_ ? consistent_->bytes() : 0); }
 
+Real Solid::kinetic_energy(Index particle) const {
+  Motion const& m = motion_[at(particle)];
+  Vec3 const body_spin = rotate(conjugate(pose_[at(particle)].q), m.spin);
+  Vec3 const rate = symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].inverse) * body_spin;
+  return 0.5 * (dot(mesh_.particle(id(particle)).mass * m.v, m.v) + dot(body_spin, rate));
+}
+
 void Solid::measure(Measures& to) const {
   for (Index l = 0; l < owned_; ++l) {
     Real const mass = mesh_.particle(id(l)).mass;
     Motion const& m = motion_[at(l)];
     Vec3 const momentum = mass * m.v;
-    Vec3 const body_spin = rotate(conjugate(pose_[at(l)].q), m.spin);
-    Vec3 const rate = symmetric_matrix(inertia_[at(inertia_of_[at(l)])].inverse) * body_spin;
-    to.add(Measures::kinetic, 0.5 * (dot(momentum, m.v) + dot(body_spin, rate)));
+    to.add(Measures::kinetic, kinetic_energy(l));
     to.add(Measures::elastic, volumetric_energy(l));
     if (plastic_) to.add(Measures::elastic, plastic_->slab_energy(l));
     to.add(Measures::mass, mass);

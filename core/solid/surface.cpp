@@ -43,37 +43,59 @@ void join_corners(Mesh const& mesh, Link const& link, std::vector<std::size_t> c
         groups.join(first[at(link.i)] + at(va), first[at(link.j)] + at(vb));
 }
 
-}  // namespace
-
-Surface::Surface(Mesh const& mesh) : dimension_(mesh.dimension) {
+/// Offsets of the corners of each particle in arrays over all corners.
+std::vector<std::size_t> first_corners(Mesh const& mesh) {
   std::vector<std::size_t> first{0};
   for (GlobalId p = 0; p < mesh.size(); ++p) first.push_back(first.back() + mesh.shape(p).polyhedron.vertices.size());
+  return first;
+}
+
+/// Faces without a whole link, by particle.
+std::vector<FreeFace> open_faces(Mesh const& mesh, std::vector<bool> const& broken) {
+  std::vector<FreeFace> faces = mesh.free_faces;
+  for (std::size_t l = 0; l < broken.size(); ++l) {
+    Link const& link = mesh.links[l];
+    if (!broken[l] || link.j == Link::wall) continue;  // a clamped face is boundary already
+    faces.push_back({link.i, link.face_i, link.weight * link.rest_length});
+    faces.push_back({link.j, link.face_j, (1 - link.weight) * link.rest_length});
+  }
+  std::stable_sort(faces.begin(), faces.end(), [](auto const& a, auto const& b) { return a.particle < b.particle; });
+  return faces;
+}
+
+}  // namespace
+
+Surface::Surface(Mesh const& mesh, std::vector<bool> const& broken, Surface const* before)
+    : dimension_(mesh.dimension), broken_(broken) {
+  std::vector<std::size_t> const first = first_corners(mesh);
   Groups groups(first.back());
-  for (Link const& link : mesh.links) join_corners(mesh, link, first, groups);
+  for (std::size_t l = 0; l < mesh.links.size(); ++l)
+    if (broken.empty() || !broken[l]) join_corners(mesh, mesh.links[l], first, groups);
+  for (std::size_t c = 0; c < first.back(); ++c) root_of_corner_.push_back(groups.root(c));
 
   // Vertices: the groups that a boundary face uses, then the centres of faces, in the order of the faces.
-  std::map<std::size_t, Index> vertex_of;
   std::vector<std::pair<std::size_t, Corner>> centres;  // face centres, by vertex
   Index next = 0;
   auto shared = [&](GlobalId p, int v) {
-    auto const [it, fresh] = vertex_of.try_emplace(groups.root(first[at(p)] + at(v)), next);
+    auto const [it, fresh] = vertex_of_root_.try_emplace(root_of_corner_[first[at(p)] + at(v)], next);
     if (fresh) ++next;
     return it->second;
   };
-  auto own = [&](GlobalId p, Vec3 const& arm) {
+  auto own = [&](GlobalId p, int face, Vec3 const& arm) {
     centres.push_back({at(next), {p, arm}});
+    vertex_of_face_[{p, face}] = next;
     return next++;
   };
   auto add = [&](GlobalId p, std::array<Index, 3> const& v, int side) {
     elements_.push_back({static_cast<GlobalId>(elements_.size()), mesh.particle(p).body, p, v, side});
   };
-  for (FreeFace const& free : mesh.free_faces) {
+  for (FreeFace const& free : open_faces(mesh, broken)) {
     GlobalId const p = free.particle;
     Polyhedron const& shape = mesh.shape(p).polyhedron;
     FaceGeometry const& face = mesh.face(p, free.face);
     auto const& loop = shape.faces[at(free.face)];
     if (dimension_ == 1) {
-      add(p, {own(p, {face.centroid.x, 0, 0}), -1, -1}, face.normal.x > 0 ? 1 : -1);
+      add(p, {own(p, free.face, {face.centroid.x, 0, 0}), -1, -1}, face.normal.x > 0 ? 1 : -1);
       continue;
     }
     if (dimension_ == 2) {
@@ -97,27 +119,99 @@ Surface::Surface(Mesh const& mesh) : dimension_(mesh.dimension) {
       add(p, {corners[0], corners[1], corners[2]}, 0);
       continue;
     }
-    Index const middle = own(p, face.centroid);
+    Index const middle = own(p, free.face, face.centroid);
     for (std::size_t k = 0; k < corners.size(); ++k) add(p, {corners[k], corners[(k + 1) % corners.size()], middle}, 0);
   }
 
   std::vector<std::vector<Corner>> corners(at(static_cast<GlobalId>(next)));
   for (auto const& [vertex, corner] : centres) corners[vertex].push_back(corner);
+  auto const arm_of = [&](Vec3 arm) {
+    if (dimension_ == 2) arm.z = 0;
+    return arm;
+  };
   for (GlobalId p = 0; p < mesh.size(); ++p) {
     auto const& vertices = mesh.shape(p).polyhedron.vertices;
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-      auto const found = vertex_of.find(groups.root(first[at(p)] + v));
-      if (found == vertex_of.end()) continue;
-      Vec3 arm = vertices[v];
-      if (dimension_ == 2) arm.z = 0;
-      corners[at(found->second)].push_back({p, arm});
-    }
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      if (auto const found = vertex_of_root_.find(root_of_corner_[first[at(p)] + v]); found != vertex_of_root_.end())
+        corners[at(found->second)].push_back({p, arm_of(vertices[v])});
   }
   for (auto const& of_vertex : corners) {
     corners_.insert(corners_.end(), of_vertex.begin(), of_vertex.end());
     first_.push_back(corners_.size());
   }
   check_closed();
+  if (!before) return;
+
+  origins_.resize(at(next));
+  std::map<std::size_t, std::vector<Corner>> inner;  // groups before that were not on the boundary
+  for (GlobalId p = 0; p < mesh.size(); ++p) {
+    auto const& vertices = mesh.shape(p).polyhedron.vertices;
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      std::size_t const corner = first[at(p)] + v;
+      auto const found = vertex_of_root_.find(root_of_corner_[corner]);
+      if (found == vertex_of_root_.end()) continue;
+      auto const old = before->vertex_of_root_.find(before->root_of_corner_[corner]);
+      if (old != before->vertex_of_root_.end())
+        origins_[at(found->second)].vertices = {old->second};
+      else
+        inner[before->root_of_corner_[corner]];
+    }
+  }
+  if (!inner.empty())
+    for (GlobalId p = 0; p < mesh.size(); ++p) {
+      auto const& vertices = mesh.shape(p).polyhedron.vertices;
+      for (std::size_t v = 0; v < vertices.size(); ++v)
+        if (auto const group = inner.find(before->root_of_corner_[first[at(p)] + v]); group != inner.end())
+          group->second.push_back({p, arm_of(vertices[v])});
+    }
+  for (auto const& [root, vertex] : vertex_of_root_)
+    if (auto const group = inner.find(before->root_of_corner_[root]); group != inner.end())
+      origins_[at(vertex)].corners = group->second;
+  for (auto const& [face, vertex] : vertex_of_face_) {
+    auto const old = before->vertex_of_face_.find(face);
+    if (old != before->vertex_of_face_.end()) {
+      origins_[at(vertex)].vertices = {old->second};
+      continue;
+    }
+    // A face of the boundary that had no centre, because some of its corners were one: within the triangle it was.
+    auto& was = origins_[at(vertex)].vertices;
+    for (int const v : mesh.shape(face.first).polyhedron.faces[at(face.second)])
+      if (auto const corner = before->vertex_of_root_.find(before->root_of_corner_[first[at(face.first)] + at(v)]);
+          corner != before->vertex_of_root_.end() && std::find(was.begin(), was.end(), corner->second) == was.end())
+        was.push_back(corner->second);
+    // The centre of a face that was inside: the mean under both particles that it joined.
+    for (std::size_t const l : mesh.links_of(face.first)) {
+      Link const& link = mesh.links[l];
+      if ((link.i == face.first ? link.face_i : link.face_j) != face.second) continue;
+      Vec3 const arm = mesh.face(link.i, link.face_i).centroid;
+      if (link.j == Link::wall || (!before->broken_.empty() && before->broken_[l])) continue;
+      Vec3 const there = mesh.particle(link.i).centre + arm - mesh.particle(link.j).centre;
+      was.clear();
+      origins_[at(vertex)].corners = {{link.i, arm_of(arm)}, {link.j, arm_of(there)}};
+    }
+  }
+}
+
+std::vector<std::vector<GlobalId>> Surface::neighbours(Mesh const& mesh) {
+  std::vector<std::size_t> const first = first_corners(mesh);
+  Groups groups(first.back());
+  for (Link const& link : mesh.links) join_corners(mesh, link, first, groups);
+  std::map<std::size_t, std::vector<GlobalId>> members;
+  for (GlobalId p = 0; p < mesh.size(); ++p)
+    for (std::size_t c = first[at(p)]; c < first[at(p) + 1]; ++c) {
+      auto& of = members[groups.root(c)];
+      if (of.empty() || of.back() != p) of.push_back(p);
+    }
+  std::vector<std::vector<GlobalId>> out(at(mesh.size()));
+  for (auto const& [root, of] : members)
+    for (GlobalId const p : of)
+      for (GlobalId const q : of)
+        if (p != q) out[at(p)].push_back(q);
+  for (auto& of : out) {
+    std::sort(of.begin(), of.end());
+    of.erase(std::unique(of.begin(), of.end()), of.end());
+  }
+  return out;
 }
 
 void Surface::check_closed() const {

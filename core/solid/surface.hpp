@@ -1,5 +1,6 @@
 // Deformed boundary of the solid: triangles in 3D, segments in 2D, points in 1D, closed by shared vertices.
 #pragma once
+#include <map>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,10 @@ struct Element {
 /// of particles around it; faces with more than three corners are fanned around their centre.
 class Surface {
  public:
-  explicit Surface(Mesh const& mesh);
+  explicit Surface(Mesh const& mesh) : Surface(mesh, {}, nullptr) {}
+  /// With links that are broken, by their place in Mesh::links: their faces belong to the boundary, and corners they
+  /// alone held together part. `before`: the surface they open in, for `origin`. Source: theory/coupling.md 3.2.
+  Surface(Mesh const& mesh, std::vector<bool> const& broken, Surface const* before);
 
   int dimension() const { return dimension_; }
   std::span<Element const> elements() const { return elements_; }
@@ -52,6 +56,17 @@ class Surface {
   void arms(Index vertex, Solid const& solid, std::span<Vec3> arms) const;
   /// Mean over the group of V_I + Omega_I x arm_I with the half-step velocities, m/s.
   Vec3 velocity(Index vertex, Solid const& solid, std::span<Vec3 const> arms) const;
+  /// Where a vertex was in the surface before: the mean of these of its vertices, mostly one, or, where there was no
+  /// boundary, the mean of the images of these corners. Vertices that parted have one origin.
+  struct Origin {
+    std::vector<Index> vertices;
+    std::vector<Corner> corners;
+  };
+  Origin const& origin(Index vertex) const { return origins_[static_cast<std::size_t>(vertex)]; }
+  /// Every particle that may ever share a vertex with `particle`: those whose corners lie at the same reference point
+  /// and that links join, broken or not. By id, without itself.
+  static std::vector<std::vector<GlobalId>> neighbours(Mesh const& mesh);
+
   /// Position in the reference state, m.
   Vec3 reference(Index vertex, Mesh const& mesh) const;
 
@@ -61,6 +76,11 @@ class Surface {
   std::vector<Element> elements_;
   std::vector<Corner> corners_;
   std::vector<std::size_t> first_{0};
+  std::vector<bool> broken_;                                  ///< links of the mesh; empty: none
+  std::vector<std::size_t> root_of_corner_;                   ///< over the corners of all particles
+  std::map<std::size_t, Index> vertex_of_root_;               ///< groups on the boundary
+  std::map<std::pair<GlobalId, int>, Index> vertex_of_face_;  ///< centres of faces
+  std::vector<Origin> origins_;                               ///< empty without a surface before
 };
 
 }  // namespace brisance::solid

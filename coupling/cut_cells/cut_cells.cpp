@@ -17,13 +17,13 @@ namespace {
 constexpr Index margin = 20;
 }  // namespace
 
-CutCells::CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid& solid, solid::Surface const& surface,
-                   fluid::State const& ambient, parallel::Comm& comm)
+CutCells::CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid& solid,
+                   std::shared_ptr<solid::Surface const> surface, fluid::State const& ambient, parallel::Comm& comm)
     : config_(config),
       flow_(flow),
       solid_(solid),
       comm_(comm),
-      surface_(solid, surface, flow, comm, margin),
+      surface_(solid, std::move(surface), flow, comm, margin),
       sweeper_(flow, comm) {
   std::vector<CellBox> region;
   for (Block const& block : flow.blocks()) region.push_back(grown(flow.grid(), box_of(block), margin));
@@ -94,6 +94,10 @@ void CutCells::join(Plan& plan) {
   plan.at(Stage::flow_update, [this](Clock const& c) { update_contents(c.dt); });
   plan.at(Stage::mix, [this](Clock const&) { mix(); });
   plan.at(Stage::fill, [this](Clock const&) { fill(); });
+  if (solid_.damageable()) {
+    broken_.assign(solid_.mesh().links.size(), false);
+    plan.at(Stage::fracture, [this](Clock const&) { open_cracks(); });
+  }
   plan.limit("coupling.wall", [this](Clock const&) {
     Real seconds = std::numeric_limits<Real>::max();
     for (int d = 0; d < flow_.grid().dimension; ++d)
@@ -105,10 +109,12 @@ void CutCells::join(Plan& plan) {
   Plan::Keep keep;
   keep.save = [this] {
     surface_.save();
+    broken_saved_ = broken_;
     kept_saved_ = kept_;
   };
   keep.restore = [this] {
     surface_.restore();
+    broken_ = broken_saved_;
     kept_ = kept_saved_;
     surface_.send_triangles(record_.triangles);
     rebuild_record();
@@ -124,6 +130,8 @@ void CutCells::join(Plan& plan) {
     file.sparse("coupling/covered", 5, ids, rows);
   };
   keep.read = [this](parallel::ArchiveReader& file) {
+    if (!broken_.empty() && gather_broken())
+      surface_.replace(std::make_shared<solid::Surface>(solid_.mesh(), broken_, nullptr));
     surface_.read(file);
     parallel::ArchiveReader::Sparse const stored = file.sparse("coupling/covered", 5);
     kept_.clear();
@@ -232,6 +240,10 @@ void CutCells::mix() {
     cell.id = ids[n];
     cell.cell = cell_from_id(grid, ids[n]);
     cell.volume = next_.volume(cell.cell);
+    cell.volume_before = record_.volume(cell.cell);
+    for (int d = 0; d < grid.dimension; ++d)
+      for (int side = 0; side < 2; ++side)
+        cell.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] = next_.aperture(cell.cell, d, side);
     cell.mine = owned(cell.cell);
     while (next_content < contents_.size() && contents_[next_content].cell < cell.id) ++next_content;
     if (next_content < contents_.size() && contents_[next_content].cell == cell.id) {
@@ -282,8 +294,14 @@ void CutCells::mix() {
       }
   }
 
-  std::string const trouble = merge_small_cells(next_, config_.small_cell, cells);
-  if (!trouble.empty() && health_.good) health_ = {false, trouble};
+  Merging merging =
+      merge_small_cells(grid, config_.small_cell, comm_.size() > 1 ? Sight::halo : Sight::everything, cells);
+  if (comm_.size() > 1) {
+    std::uint64_t outgrown = merging.outgrown ? 1 : 0;
+    comm_.bit_or(std::span(&outgrown, 1));
+    if (outgrown > 0) merging = merge_everywhere(cells);
+  }
+  if (!merging.trouble.empty() && health_.good) health_ = {false, merging.trouble};
   kept_.clear();
   for (NearCell const& cell : cells) {
     if (!cell.mine || !(cell.rewritten || cell.grouped)) continue;
@@ -306,6 +324,25 @@ void CutCells::mix() {
   }
 }
 
+Merging CutCells::merge_everywhere(std::vector<NearCell>& cells) {
+  // A group is longer than the halo is wide, as along a closing crack: every rank merges the cells of all.
+  parallel::Bytes bytes;
+  for (NearCell const& cell : cells)
+    if (cell.mine) parallel::put(bytes, cell);
+  std::vector<NearCell> all;
+  std::vector<parallel::Bytes> const gathered = comm_.all_gather(bytes);
+  for (std::size_t rank = 0; rank < gathered.size(); ++rank)
+    for (std::span<std::byte const> in(gathered[rank]); !in.empty();) {
+      all.push_back(parallel::take<NearCell>(in));
+      all.back().mine = static_cast<int>(rank) == comm_.rank();
+    }
+  std::sort(all.begin(), all.end(), [](NearCell const& a, NearCell const& b) { return a.id < b.id; });
+  Merging const merging = merge_small_cells(flow_.grid(), config_.small_cell, Sight::everything, all);
+  std::erase_if(all, [](NearCell const& c) { return !c.mine; });
+  cells = std::move(all);
+  return merging;
+}
+
 void CutCells::fill() {
   for (CutCell const& cut : next_.geometry.cells) cut_cells_done_ += owned(cut.cell) ? 1 : 0;
   // Mirror states hold the velocity of the wall: they are made anew when it changed, as a restart would make them.
@@ -319,6 +356,26 @@ void CutCells::fill() {
     sweeper_.rebuild(record_);
   else
     sweeper_.keep(record_);
+}
+
+bool CutCells::gather_broken() {
+  parallel::Bytes mine;
+  for (std::size_t k = 0; k < solid_.links(); ++k)
+    if (solid_.intact(k) == 0 && solid_.link_store().end_i(k) < solid_.owned() && !broken_[solid_.mesh_link(k)])
+      parallel::put(mine, static_cast<std::uint64_t>(solid_.mesh_link(k)));
+  bool any = false;
+  for (parallel::Bytes const& bytes : comm_.all_gather(mine))
+    for (std::span<std::byte const> in(bytes); !in.empty(); any = true)
+      broken_[static_cast<std::size_t>(parallel::take<std::uint64_t>(in))] = true;
+  return any;
+}
+
+void CutCells::open_cracks() {
+  if (!gather_broken()) return;
+  // Faces that part coincide in the record: no aperture and no volume changes before they move.
+  surface_.open(std::make_shared<solid::Surface>(solid_.mesh(), broken_, &surface_.topology()));
+  surface_.send_triangles(record_.triangles);
+  rebuild_record();
 }
 
 Verdict CutCells::judge() const { return health_; }

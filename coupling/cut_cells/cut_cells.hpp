@@ -6,6 +6,7 @@
 
 #include "core/model/plan.hpp"
 #include "coupling/coupling_config.hpp"
+#include "coupling/cut_cells/mixing.hpp"
 #include "coupling/cut_cells/viscous_wall.hpp"
 #include "coupling/cut_cells/wall_surface.hpp"
 #include "coupling/cut_cells/wall_sweeper.hpp"
@@ -16,8 +17,8 @@ namespace brisance::coupling {
 
 class CutCells : public Effect {
  public:
-  CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid& solid, solid::Surface const& surface,
-           fluid::State const& ambient, parallel::Comm& comm);
+  CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid& solid,
+           std::shared_ptr<solid::Surface const> surface, fluid::State const& ambient, parallel::Comm& comm);
   void join(Plan& plan) override;
 
   /// Collective. Geometry of the initial positions; to be called before the fluid is filled (charges are exact over
@@ -55,9 +56,17 @@ class CutCells : public Effect {
   void update_contents(Real dt);
   void mix();
   void fill();
+  /// Collective. The boundary opens where links broke in this step.
+  void open_cracks();
+  /// Collective. Merges with the cells of all ranks in sight; leaves those of this rank.
+  Merging merge_everywhere(std::vector<NearCell>& cells);
   // pieces of them
   void wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces);
   void transfers();
+  /// Collective. Cells around the walls, of this rank and next to it, that hold a vacuum at the start of the step.
+  void find_vacuum(WallRecord const& record, bool initial);
+  /// Collective. Links of the mesh that broke since broken_ was brought up to date, which this does; false if none.
+  bool gather_broken();
   /// Collective. Cuts the cells by the predicted boundary; false when it is not closed around some cell of some rank.
   bool build_next();
   void boundary_account(Real dt);
@@ -79,6 +88,8 @@ class CutCells : public Effect {
   bool moved_ = true;         ///< any triangle of any rank moved in this step
   bool same_ = false;         ///< next_ holds the geometry of record_
   solid::Solid::Saved solid_before_;
+  std::vector<bool> broken_, broken_saved_;  ///< links of the mesh; empty when none can break
+  std::vector<GlobalId> vacuum_;             ///< by id
 
   std::vector<Content> kept_, kept_saved_;  ///< contents of covered cells, by id
   std::vector<Content> contents_;           ///< of the cells the balance rewrites, by id

@@ -23,21 +23,23 @@ bool inadmissible(Real volume, State const& m) {
 
 class Merger {
  public:
-  Merger(WallRecord const& record, Real small_cell, std::vector<NearCell>& cells)
-      : record_(record), grid_(record.grid()), small_(small_cell * record.grid().cell_volume()), cells_(cells) {
+  Merger(fluid::Grid const& grid, Real small_cell, Sight sight, std::vector<NearCell>& cells)
+      : grid_(grid), full_(grid.cell_volume()), small_(small_cell * full_), sight_(sight), cells_(cells) {
     parent_.resize(cells.size());
     std::iota(parent_.begin(), parent_.end(), Index{0});
+    for (NearCell& c : cells_) c.grouped = false;
   }
 
-  std::string run() {
+  Merging run() {
     for (Index i = 0; i < count(); ++i) {
       NearCell const& c = cell(i);
-      bool const covered = c.volume <= covered_fraction * grid_.cell_volume();
-      if (covered ? c.amount == State{} : c.volume >= small_) continue;
+      bool const covered = c.volume <= covered_fraction * full_;
+      if (c.amount == State{}) continue;  // a void has nothing to share, in a crack that opens as in a covered cell
+      if (!covered && (c.volume >= small_ || drains(c))) continue;
       Index const t = target(i);
       if (t >= 0) unite(i, t);
     }
-    for (int round = 0; round < 200; ++round) {
+    for (;;) {  // every round unites groups, so that it ends
       sum_groups();
       std::vector<std::pair<Index, Index>> unions;
       for (Index i = 0; i < count(); ++i)
@@ -45,13 +47,12 @@ class Merger {
           Index const partner = growth(i);
           if (partner >= 0)
             unions.emplace_back(i, partner);
-          else if (mine(i))  // a foreign group may have its partner beyond the halo: its owners judge it
-            return place(i) + ": no neighbour makes its group of small cells admissible";
+          else if (sight_ == Sight::everything || mine(i))  // a foreign group may have its partner beyond the halo
+            return {place(i) + ": no neighbour makes its group of small cells admissible", sight_ == Sight::halo};
         }
       if (unions.empty()) return finish();
       for (auto const& [a, b] : unions) unite(a, b);
     }
-    return "groups of small cells do not become admissible";
   }
 
  private:
@@ -74,6 +75,16 @@ class Merger {
     if (a != b) parent_[at(std::max(a, b))] = std::min(a, b);  // the root is the lowest id: no order of visit enters
   }
 
+  /// A cell of a gap between walls lets its content out as fast as a full cell, when its faces are as open as it is,
+  /// and its walls are not about to crush or to stretch it: it keeps its own state, and gas enters a crack cell by
+  /// cell.
+  bool drains(NearCell const& c) const {
+    Real widest = 0;
+    for (int d = 0; d < grid_.dimension; ++d)
+      for (Real const a : c.aperture[static_cast<std::size_t>(d)]) widest = max(widest, a / grid_.face_area(d));
+    return widest <= 1.1 * c.volume / full_ && c.volume <= 2 * c.volume_before && c.volume_before <= 2 * c.volume;
+  }
+
   Index target(Index i) {
     NearCell const& c = cell(i);
     Index best = -1;
@@ -83,7 +94,7 @@ class Merger {
       for (int side = 0; side < 2; ++side) {
         CellIndex n = c.cell;
         n[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
-        Real const a = record_.aperture(c.cell, d, side) / grid_.face_area(d);
+        Real const a = c.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] / grid_.face_area(d);
         Index const j = find(n);
         if (j < 0 || !(a > 1e-12)) continue;
         open = true;
@@ -106,8 +117,12 @@ class Merger {
     volume_.assign(cells_.size(), 0);
     amount_.assign(cells_.size(), State{});
     judged_.assign(cells_.size(), false);
+    next_.assign(cells_.size(), -1);
+    last_.assign(cells_.size(), -1);
     for (Index i = 0; i < count(); ++i) {
       Index const r = root(i);
+      if (r != i) next_[at(last_[at(r)])] = i;
+      last_[at(r)] = i;
       volume_[at(r)] += cell(i).volume;
       for (std::size_t q = 0; q < 5; ++q) amount_[at(r)][q] += cell(i).amount[q];
       if (cell(i).rewritten || r != i) judged_[at(r)] = true;
@@ -117,8 +132,7 @@ class Merger {
   Index growth(Index group) {
     Index best = -1;
     Real best_score = 0;
-    for (Index i = group; i < count(); ++i) {
-      if (root(i) != group) continue;
+    for (Index i = group; i >= 0; i = next_[at(i)]) {
       for (int d = 0; d < grid_.dimension; ++d)
         for (int side = 0; side < 2; ++side) {
           CellIndex n = cell(i).cell;
@@ -127,8 +141,10 @@ class Merger {
           if (j < 0 || root(j) == group || cell(j).volume <= 0) continue;
           Index const other = root(j);
           bool const positive = !inadmissible(volume_[at(other)], amount_[at(other)]);
-          Real const score = cell(j).volume / grid_.cell_volume() +
-                             2 * record_.aperture(cell(i).cell, d, side) / grid_.face_area(d) + (positive ? 1 : 0);
+          Real const score =
+              cell(j).volume / grid_.cell_volume() +
+              2 * cell(i).aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] / grid_.face_area(d) +
+              (positive ? 1 : 0);
           consider(j, score, best, best_score);
         }
     }
@@ -136,8 +152,8 @@ class Merger {
   }
 
   bool mine(Index group) {
-    for (Index i = group; i < count(); ++i)
-      if (cell(i).mine && root(i) == group) return true;
+    for (Index i = group; i >= 0; i = next_[at(i)])
+      if (cell(i).mine) return true;
     return false;
   }
 
@@ -146,7 +162,7 @@ class Merger {
     return "cell (" + std::to_string(c[0]) + ", " + std::to_string(c[1]) + ", " + std::to_string(c[2]) + ")";
   }
 
-  std::string finish() {
+  Merging finish() {
     std::vector<CellIndex> low(cells_.size()), high(cells_.size());
     std::vector<Index> members(cells_.size(), 0);
     for (Index i = 0; i < count(); ++i) {
@@ -161,19 +177,19 @@ class Merger {
       std::size_t const r = at(root(i));
       if (members[r] < 2) continue;
       for (std::size_t d = 0; d < 3; ++d)
-        if (high[r][d] - low[r][d] >= largest_group && cell(i).mine)
-          return place(i) + ": a group of small cells spans more than " + std::to_string(largest_group) + " cells";
+        if (sight_ == Sight::halo && high[r][d] - low[r][d] >= largest_group && cell(i).mine) return {"", true};
       cell(i).grouped = true;
       for (std::size_t q = 0; q < 5; ++q) cell(i).mean[q] = amount_[r][q] / volume_[r];
     }
     return {};
   }
 
-  WallRecord const& record_;
   fluid::Grid const& grid_;
-  Real small_;
+  Real full_, small_;
+  Sight sight_;
   std::vector<NearCell>& cells_;
   std::vector<Index> parent_;
+  std::vector<Index> next_, last_;  ///< members of a group in the order of ids: after i; the last one, by root
   std::vector<Real> volume_;
   std::vector<State> amount_;
   std::vector<bool> judged_;
@@ -181,8 +197,8 @@ class Merger {
 
 }  // namespace
 
-std::string merge_small_cells(WallRecord const& record, Real small_cell, std::vector<NearCell>& cells) {
-  return Merger(record, small_cell, cells).run();
+Merging merge_small_cells(fluid::Grid const& grid, Real small_cell, Sight sight, std::vector<NearCell>& cells) {
+  return Merger(grid, small_cell, sight, cells).run();
 }
 
 }  // namespace brisance::coupling

@@ -11,9 +11,11 @@ namespace brisance::coupling {
 struct NearCell {
   GlobalId id = 0;
   CellIndex cell{};
-  Real volume = 0;         ///< fluid, m3
-  fluid::State amount{};   ///< integral over the cell
-  bool rewritten = false;  ///< the balance changed it: it is judged
+  Real volume = 0;                                ///< fluid, m3
+  Real volume_before = 0;                         ///< at the start of the step, m3
+  std::array<std::array<Real, 2>, 3> aperture{};  ///< fluid area of the faces, m2
+  fluid::State amount{};                          ///< integral over the cell
+  bool rewritten = false;                         ///< the balance changed it: it is judged
   bool mine = false;
   // results
   bool grouped = false;
@@ -22,12 +24,19 @@ struct NearCell {
 
 /// Cells beyond those of a rank within which the groups of its cells are built redundantly.
 constexpr Index mixing_halo = 16;
-/// Largest extent of a group along an axis: what the halo allows, applied on any number of ranks.
+/// Largest extent along an axis of a group that a rank can build with its halo alone.
 constexpr Index largest_group = 14;
 
-/// Groups of small cells, and of whatever must join them to be admissible; fills `grouped` and `mean`.
-/// Returns an empty text, or why and where no admissible grouping exists. Independent of the order of visit and of
-/// ranks.
-std::string merge_small_cells(WallRecord const& record, Real small_cell, std::vector<NearCell>& cells);
+/// What the list holds: the cells of a rank and its halo, or those of all ranks.
+enum class Sight { halo, everything };
+
+struct Merging {
+  std::string trouble;    ///< empty, or why and where no admissible grouping exists
+  bool outgrown = false;  ///< a group of cells of this rank needs more than the halo: merge again with everything
+};
+
+/// Groups of small cells, and of whatever must join them to be admissible; fills `grouped` and `mean`. Independent of
+/// the order of visit and, unless outgrown, of what else is in sight.
+Merging merge_small_cells(fluid::Grid const& grid, Real small_cell, Sight sight, std::vector<NearCell>& cells);
 
 }  // namespace brisance::coupling

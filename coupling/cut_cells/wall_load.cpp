@@ -1,5 +1,7 @@
 // Pressure of the cut cells on the pieces of the wall (theory/coupling.md 1.4).
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/cut_cells.hpp"
@@ -11,10 +13,10 @@ using fluid::State;
 Real CutCells::half_riemann(State const& u, Vec3 const& wall_velocity, Vec3 const& area) const {
   fluid::Gas const& gas = flow_.gas();
   if (config_.wall_pressure == "cell" || !gas.curve.zero()) return 1;  // the factor is that of an ideal gas
-  Real const c = gas.sound_speed(u);
-  if (!(c > 0)) return 1;
+  Real const c = gas.sound_speed(u), size = norm(area);
+  if (!(c > 0) || !(size > 0)) return 1;  // a triangle whose corners coincide sweeps, but bears nothing
   Vec3 const velocity = Vec3{u[1], u[2], u[3]} / u[0];
-  Real const mach = dot(velocity - wall_velocity, area) / (norm(area) * c);
+  Real const mach = dot(velocity - wall_velocity, area) / (size * c);
   Real const g = gas.gamma;
   Real exact;
   if (mach > 0) {
@@ -27,10 +29,45 @@ Real CutCells::half_riemann(State const& u, Vec3 const& wall_velocity, Vec3 cons
   return theta * exact + 1 - theta;
 }
 
+void CutCells::find_vacuum(WallRecord const& record, bool initial) {
+  fluid::Grid const& grid = flow_.grid();
+  vacuum_.clear();
+  for (CutCell const& cut : record.geometry.cells)
+    for_neighbourhood(grid, cut.cell, 1, [&](CellIndex n) {
+      if (!grid.inside(n) || !owned(n) || record_.solid(n)) return;
+      fluid::Block const& block = *flow_.find(grid.block_of(n));
+      CellIndex const first = block.first();
+      Index const i = n[0] - first[0], j = n[1] - first[1], k = n[2] - first[2];
+      WallBlock const& wall = sweeper_.blocks().at(block.id());
+      if (flow_.gas().vacuum(initial ? block.load(i, j, k) : wall.before[wall.cell(i, j, k)]))
+        vacuum_.push_back(grid.cell_id(n));
+    });
+  std::sort(vacuum_.begin(), vacuum_.end());
+  vacuum_.erase(std::unique(vacuum_.begin(), vacuum_.end()), vacuum_.end());
+  std::map<int, parallel::Bytes> to;
+  for (GlobalId const id : vacuum_) {
+    CellIndex const c = cell_from_id(grid, id);
+    std::vector<int> told{comm_.rank()};
+    for_neighbourhood(grid, c, 1, [&](CellIndex n) {
+      if (!grid.inside(n)) return;
+      int const rank = flow_.owner(grid.block_of(n));
+      if (std::find(told.begin(), told.end(), rank) != told.end()) return;
+      told.push_back(rank);
+      parallel::put(to[rank], id);
+    });
+  }
+  std::vector<parallel::Message> out;
+  for (auto& [rank, data] : to) out.push_back({rank, std::move(data)});
+  for (parallel::Message const& message : comm_.deliver(std::move(out)))
+    for (std::span<std::byte const> in(message.data); !in.empty();) vacuum_.push_back(parallel::take<GlobalId>(in));
+  std::sort(vacuum_.begin(), vacuum_.end());
+}
+
 void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces) {
   fluid::Grid const& grid = flow_.grid();
   forces.clear();
   piece_factor_.assign(record.geometry.pieces.size(), 1);
+  find_vacuum(record, initial);
   for (CutCell const& cut : record.geometry.cells) {
     if (!owned(cut.cell)) continue;
     fluid::Block const& block = *flow_.find(grid.block_of(cut.cell));
@@ -40,12 +77,10 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
     State const u = initial ? block.load(i, j, k) : wall.before[wall.cell(i, j, k)];
     // The factor is 1 in or next to a vacuum cell.
     bool vacuum = false;
-    for_neighbourhood(grid, cut.cell, 1, [&](CellIndex n) {
-      if (!grid.inside(n) || grid.block_of(n) != block.id() || record_.solid(n)) return;
-      State const s = initial ? block.load(n[0] - first[0], n[1] - first[1], n[2] - first[2])
-                              : wall.before[wall.cell(n[0] - first[0], n[1] - first[1], n[2] - first[2])];
-      vacuum = vacuum || flow_.gas().vacuum(s);
-    });
+    if (!vacuum_.empty())
+      for_neighbourhood(grid, cut.cell, 1, [&](CellIndex n) {
+        vacuum = vacuum || (grid.inside(n) && std::binary_search(vacuum_.begin(), vacuum_.end(), grid.cell_id(n)));
+      });
     Vec3 pressure;
     for (int d = 0; d < grid.dimension; ++d)
       pressure[d] = initial ? flow_.gas().pressure(u) : wall.pressure[static_cast<std::size_t>(d)][wall.cell(i, j, k)];

@@ -21,29 +21,10 @@ bool in_beam(int dimension, CellBox const& box, CellBox const& triangle) {
 
 }  // namespace
 
-WallSurface::WallSurface(solid::Solid& solid, solid::Surface const& surface, fluid::Flow& flow, parallel::Comm& comm,
-                         Index margin)
-    : solid_(solid), surface_(surface), flow_(flow), comm_(comm) {
-  std::vector<GlobalId> needed;
-  for (std::size_t t = 0; t < surface.elements().size(); ++t) {
-    solid::Element const& triangle = surface.elements()[t];
-    if (solid.owner(triangle.particle) != comm.rank()) continue;
-    triangles_.push_back(t);
-    for (int a = 0; a < flow.grid().dimension; ++a) needed.push_back(triangle.vertex[static_cast<std::size_t>(a)]);
-  }
-  for (Index v = 0; v < surface.vertices(); ++v)
-    for (solid::Corner const& c : surface.corners(v))
-      if (solid.owner(c.particle) == comm.rank()) needed.push_back(v);
-  std::sort(needed.begin(), needed.end());
-  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-  for (GlobalId const id : needed) {
-    Vertex vertex{id, {}, {}, {}, static_cast<Index>(member_.size()), 0};
-    for (solid::Corner const& c : surface.corners(static_cast<Index>(id))) member_.push_back(solid.local(c.particle));
-    vertex.last_member = static_cast<Index>(member_.size());
-    vertices_.push_back(vertex);
-  }
-  arm_.resize(member_.size());
-
+WallSurface::WallSurface(solid::Solid& solid, std::shared_ptr<solid::Surface const> surface, fluid::Flow& flow,
+                         parallel::Comm& comm, Index margin)
+    : solid_(solid), flow_(flow), comm_(comm) {
+  replace(std::move(surface));
   fluid::Grid const& grid = flow.grid();
   std::map<int, CellBox> boxes;
   for (Index b = 0; b < grid.block_count(); ++b) {
@@ -62,10 +43,71 @@ WallSurface::WallSurface(solid::Solid& solid, solid::Surface const& surface, flu
   for (auto const& [rank, box] : boxes) reach_.push_back({rank, grown(grid, box, margin)});
 }
 
-Index WallSurface::local(GlobalId vertex) const {
-  auto const at = std::lower_bound(vertices_.begin(), vertices_.end(), vertex,
+Index WallSurface::find(std::vector<Vertex> const& vertices, GlobalId vertex) {
+  auto const at = std::lower_bound(vertices.begin(), vertices.end(), vertex,
                                    [](Vertex const& v, GlobalId id) { return v.id < id; });
-  return at != vertices_.end() && at->id == vertex ? static_cast<Index>(at - vertices_.begin()) : -1;
+  return at != vertices.end() && at->id == vertex ? static_cast<Index>(at - vertices.begin()) : -1;
+}
+
+void WallSurface::replace(std::shared_ptr<solid::Surface const> surface) {
+  surface_ = std::move(surface);
+  vertices_.clear(), member_.clear(), triangles_.clear();
+  sent_.clear();
+  std::vector<GlobalId> needed;
+  for (std::size_t t = 0; t < surface_->elements().size(); ++t) {
+    solid::Element const& triangle = surface_->elements()[t];
+    if (solid_.owner(triangle.particle) != comm_.rank()) continue;
+    triangles_.push_back(t);
+    for (int a = 0; a < flow_.grid().dimension; ++a) needed.push_back(triangle.vertex[static_cast<std::size_t>(a)]);
+  }
+  for (Index v = 0; v < surface_->vertices(); ++v)
+    for (solid::Corner const& c : surface_->corners(v))
+      if (solid_.owner(c.particle) == comm_.rank()) needed.push_back(v);
+  std::sort(needed.begin(), needed.end());
+  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+  for (GlobalId const id : needed) {
+    Vertex vertex{id, {}, {}, {}, {}, static_cast<Index>(member_.size()), 0};
+    for (solid::Corner const& c : surface_->corners(static_cast<Index>(id)))
+      member_.push_back(solid_.local(c.particle));
+    vertex.last_member = static_cast<Index>(member_.size());
+    vertices_.push_back(vertex);
+  }
+  arm_.assign(member_.size(), Vec3{});
+}
+
+void WallSurface::open(std::shared_ptr<solid::Surface const> opened) {
+  std::vector<Vertex> const before = std::move(vertices_);
+  replace(std::move(opened));
+  for (Vertex& v : vertices_) {
+    auto const vertex = static_cast<Index>(v.id);
+    solid::Surface::Origin const& origin = surface_->origin(vertex);
+    if (origin.vertices.size() == 1) {
+      v.record = before[static_cast<std::size_t>(find(before, origin.vertices[0]))].record;
+    } else if (!origin.vertices.empty()) {
+      Vec3 sum{};
+      for (Index const old : origin.vertices) sum += before[static_cast<std::size_t>(find(before, old))].record;
+      v.record = sum / static_cast<Real>(origin.vertices.size());
+    } else {
+      Vec3 sum{};
+      for (solid::Corner const& c : origin.corners) {
+        solid::Pose const& pose = std::as_const(solid_).pose()[static_cast<std::size_t>(solid_.local(c.particle))];
+        sum += pose.x + rotate(pose.q, c.arm);
+      }
+      v.record = sum / static_cast<Real>(origin.corners.size());
+    }
+    v.position = v.record;
+    Vec3 const jump = v.record - surface_->position(vertex, solid_);
+    if (shortened(jump) != Vec3{}) v.lag = jump;  // else it is swept at once
+    surface_->arms(vertex, solid_, arms(v));
+  }
+  update_velocities();
+}
+
+Vec3 WallSurface::shortened(Vec3 const& lag) const {
+  Real steps = 0;
+  for (int d = 0; d < flow_.grid().dimension; ++d)
+    steps = max(steps, std::abs(lag[d]) / (0.1 * flow_.grid().spacing[d]));
+  return steps > 1 ? (1 - 1 / steps) * lag : Vec3{};
 }
 
 void WallSurface::start() {
@@ -76,14 +118,15 @@ void WallSurface::start() {
 void WallSurface::predict() {
   for (Vertex& v : vertices_) {
     auto const vertex = static_cast<Index>(v.id);
-    v.position = surface_.position(vertex, solid_);
-    surface_.arms(vertex, solid_, arms(v));
+    v.lag = shortened(v.lag);
+    v.position = surface_->position(vertex, solid_) + v.lag;
+    surface_->arms(vertex, solid_, arms(v));
   }
   update_velocities();
 }
 
 void WallSurface::update_velocities() {
-  for (Vertex& v : vertices_) v.velocity = surface_.velocity(static_cast<Index>(v.id), solid_, arms(v));
+  for (Vertex& v : vertices_) v.velocity = surface_->velocity(static_cast<Index>(v.id), solid_, arms(v));
 }
 
 void WallSurface::accept() {
@@ -129,7 +172,7 @@ void WallSurface::send_triangles(std::vector<SurfaceTriangle>& received) {
   triangles.reserve(triangles_.size());
   std::map<int, std::vector<std::size_t>> targets;
   for (std::size_t place = 0; place < triangles_.size(); ++place) {
-    solid::Element const& t = surface_.elements()[triangles_[place]];
+    solid::Element const& t = surface_->elements()[triangles_[place]];
     SurfaceTriangle triangle;
     triangle.id = t.id;
     for (std::size_t a = 0; a < corners; ++a) triangle.vertex[a] = t.vertex[a];
@@ -178,7 +221,7 @@ void WallSurface::send_velocities(std::vector<SurfaceTriangle>& received) {
   for (auto const& [rank, places] : sent_) {
     parallel::Message message{rank, {}};
     for (std::size_t const place : places) {
-      solid::Element const& t = surface_.elements()[triangles_[place]];
+      solid::Element const& t = surface_->elements()[triangles_[place]];
       Record record{t.id, {}};
       for (std::size_t a = 0; a < corners; ++a)
         record.velocity[a] = vertices_[static_cast<std::size_t>(local(t.vertex[a]))].velocity;
@@ -200,7 +243,7 @@ void WallSurface::apply(std::vector<CellForce> const& forces) {
   // To the owners of the triangles, summed there in the order of cells.
   std::map<int, parallel::Bytes> to_owner;
   for (CellForce const& f : forces)
-    parallel::put(to_owner[solid_.owner(surface_.elements()[static_cast<std::size_t>(f.triangle)].particle)], f);
+    parallel::put(to_owner[solid_.owner(surface_->elements()[static_cast<std::size_t>(f.triangle)].particle)], f);
   std::vector<parallel::Message> out;
   for (auto& [rank, data] : to_owner) out.push_back({rank, std::move(data)});
   std::vector<CellForce> mine;
@@ -221,10 +264,10 @@ void WallSurface::apply(std::vector<CellForce> const& forces) {
     std::array<Vec3, 3> sum{};
     for (; f < mine.size() && mine[f].triangle == id; ++f)
       for (std::size_t a = 0; a < corners; ++a) sum[a] += mine[f].force[a];
-    solid::Element const& t = surface_.elements()[static_cast<std::size_t>(id)];
+    solid::Element const& t = surface_->elements()[static_cast<std::size_t>(id)];
     for (std::size_t a = 0; a < corners; ++a) {
       std::vector<int> ranks;
-      for (solid::Corner const& m : surface_.corners(t.vertex[a])) {
+      for (solid::Corner const& m : surface_->corners(t.vertex[a])) {
         int const rank = solid_.owner(m.particle);
         if (std::find(ranks.begin(), ranks.end(), rank) == ranks.end()) ranks.push_back(rank);
       }
@@ -263,22 +306,23 @@ void WallSurface::write(parallel::ArchiveWriter& file) const {
   std::vector<std::int64_t> ids;
   std::vector<double> rows;
   for (Vertex const& v : vertices_) {
-    if (solid_.owner(surface_.corners(static_cast<Index>(v.id)).front().particle) != comm_.rank()) continue;
+    if (solid_.owner(surface_->corners(static_cast<Index>(v.id)).front().particle) != comm_.rank()) continue;
     ids.push_back(v.id);
-    for (Vec3 const& x : {v.record, v.velocity}) rows.insert(rows.end(), {x.x, x.y, x.z});
+    for (Vec3 const& x : {v.record, v.velocity, v.lag}) rows.insert(rows.end(), {x.x, x.y, x.z});
   }
-  file.sparse("coupling/vertices", 6, ids, rows);
+  file.sparse("coupling/vertices", 9, ids, rows);
 }
 
 void WallSurface::read(parallel::ArchiveReader& file) {
-  parallel::ArchiveReader::Sparse const stored = file.sparse("coupling/vertices", 6);
+  parallel::ArchiveReader::Sparse const stored = file.sparse("coupling/vertices", 9);
   for (std::size_t s = 0; s < stored.ids.size(); ++s) {
     Index const at = local(stored.ids[s]);
     if (at < 0) continue;
-    double const* row = stored.data.data() + 6 * s;
+    double const* row = stored.data.data() + 9 * s;
     Vertex& v = vertices_[static_cast<std::size_t>(at)];
     v.record = v.position = {row[0], row[1], row[2]};
     v.velocity = {row[3], row[4], row[5]};
+    v.lag = {row[6], row[7], row[8]};
   }
 }
 

@@ -1,6 +1,7 @@
 // The deformed boundary between the ranks that own the particles and the ranks whose blocks it cuts: triangles go out,
 // vertex forces come back, vertex velocities follow (theory/coupling.md 1.6, 8.2).
 #pragma once
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,8 +23,16 @@ struct CellForce {
 class WallSurface {
  public:
   /// `margin`: cells around a block within which its rank needs the triangles.
-  WallSurface(solid::Solid& solid, solid::Surface const& surface, fluid::Flow& flow, parallel::Comm& comm,
-              Index margin);
+  WallSurface(solid::Solid& solid, std::shared_ptr<solid::Surface const> surface, fluid::Flow& flow,
+              parallel::Comm& comm, Index margin);
+
+  solid::Surface const& topology() const { return *surface_; }
+  /// The surface with more broken links, before the vertices are read from a checkpoint.
+  void replace(std::shared_ptr<solid::Surface const> surface);
+  /// The surface opens between two steps: vertices that part start from their common place in the record, those that
+  /// were inside from the mean of their particles. Expects: `opened` was made from topology(); poses and half-step
+  /// velocities of ghosts are current.
+  void open(std::shared_ptr<solid::Surface const> opened);
 
   /// Vertices at the present positions of the particles become the record (start of a run).
   void start();
@@ -51,26 +60,33 @@ class WallSurface {
   /// The predicted positions become those of the record: the boundary rests in this step.
   void hold();
 
-  /// Rows by vertex id of the vertices this rank keeps: record position, velocity (6 columns).
+  /// Rows by vertex id of the vertices this rank keeps: record position, velocity, lag (9 columns).
   void write(parallel::ArchiveWriter& file) const;
   void read(parallel::ArchiveReader& file);
-  void save() { saved_ = vertices_; }
-  void restore() { vertices_ = saved_; }
+  void save() { saved_ = vertices_, saved_surface_ = surface_; }
+  void restore() {
+    if (surface_ != saved_surface_) replace(saved_surface_);
+    vertices_ = saved_;
+  }
 
  private:
   struct Vertex {
     GlobalId id;
     Vec3 record, position, velocity;
+    Vec3 lag;  ///< from the mean of its particles, after a break that moved this far; taken back in steps
     Index first_member, last_member;
   };
+  /// The part of a lag that is left after a step: a tenth of a cell at a time.
+  Vec3 shortened(Vec3 const& lag) const;
   std::span<Vec3> arms(Vertex const& v) {
     return std::span(arm_).subspan(static_cast<std::size_t>(v.first_member),
                                    static_cast<std::size_t>(v.last_member - v.first_member));
   }
-  Index local(GlobalId vertex) const;
+  static Index find(std::vector<Vertex> const& vertices, GlobalId vertex);
+  Index local(GlobalId vertex) const { return find(vertices_, vertex); }
 
   solid::Solid& solid_;
-  solid::Surface const& surface_;
+  std::shared_ptr<solid::Surface const> surface_, saved_surface_;
   fluid::Flow& flow_;
   parallel::Comm& comm_;
   std::vector<Vertex> vertices_, saved_;  ///< sorted by id

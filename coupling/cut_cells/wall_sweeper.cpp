@@ -203,7 +203,7 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
       }
     }
   }
-  close_reflecting_sides(block, wall, direction);
+  close_reflecting_sides(block, wall, direction, sigma, total);
   return total;
 }
 
@@ -225,7 +225,8 @@ void WallSweeper::flux_between_solids(Block const& block, WallBlock& wall, int d
     }
 }
 
-void WallSweeper::close_reflecting_sides(Block const& block, WallBlock& wall, int direction) const {
+void WallSweeper::close_reflecting_sides(Block& block, WallBlock& wall, int direction, Real sigma,
+                                         fluid::SweepReport& total) const {
   auto const d = static_cast<std::size_t>(direction);
   std::size_t const t0 = d == 0 ? 1 : 0, t1 = d == 2 ? 1 : 2;
   for (int side = 0; side < 2; ++side) {
@@ -237,9 +238,22 @@ void WallSweeper::close_reflecting_sides(Block const& block, WallBlock& wall, in
         CellIndex c{};
         c[d] = face, c[t0] = a, c[t1] = b;
         State& f = wall.flux[d][wall.face(direction, c[0], c[1], c[2])];
-        Real const normal = f[1 + d];
-        f = {};
-        f[1 + d] = normal;
+        State removed = f;
+        removed[1 + d] = 0;
+        for (std::size_t q = 0; q < 5; ++q) f[q] -= removed[q];
+        if (removed == State{}) continue;
+        // The cell behind the side has let it through: a run that ends near the side is no mirror of itself.
+        c[d] -= side;
+        if (!is_fluid(block, c[0], c[1], c[2])) continue;
+        State u = block.load(c[0], c[1], c[2]);
+        for (std::size_t q = 0; q < 5; ++q) u[q] += (side == 0 ? -sigma : sigma) * removed[q];
+        block.store(c[0], c[1], c[2], u);
+        CellIndex const first = block.first();
+        if (record_->cut_index({first[0] + c[0], first[1] + c[1], first[2] + c[2]}) >= 0) continue;
+        if (std::uint64_t const health = judge(u, flow_.gas()); health != 0) {
+          if (total.health == 0) total.where = c;
+          total.health |= health;
+        }
       }
   }
 }

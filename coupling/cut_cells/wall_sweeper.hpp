@@ -82,7 +82,9 @@ class WallSweeper : public fluid::BlockSweeper {
   MirrorCell mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted) const;
   void refresh_mirrors();
   void flux_between_solids(fluid::Block const& block, WallBlock& wall, int direction, Real sigma) const;
-  void close_reflecting_sides(fluid::Block const& block, WallBlock& wall, int direction) const;
+  /// Nothing but pressure goes through a reflecting side, to round-off.
+  void close_reflecting_sides(fluid::Block& block, WallBlock& wall, int direction, Real sigma,
+                              fluid::SweepReport& total) const;
 
   fluid::Flow& flow_;
   parallel::Comm& comm_;

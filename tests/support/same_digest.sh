@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # same_digest.sh PROGRAM WORK STEPS SCENE [options of run]: the scene ends with the same state_digest on 1, 2, 3 and 4 ranks,
 # and when it is stopped half way and restarted on another number of ranks; blocks of another size
-# give the same bits too, and so do blocks that may not sleep.
+# give the same bits too, and so do blocks that may not sleep. The census of fragments has the same bytes.
 set -u
 program=$1 work=$2 steps=$3 scene=$4
 shift 4
@@ -25,6 +25,11 @@ check() { # check NAME DIRECTORY
   printf '%-28s %s\n' "$1" "$got"
   if [[ -z $expected || $got != "$expected" ]]; then
     echo "FAILED: $1: expected $expected, got $got"
+    failed=1
+  fi
+  # The census of fragments, where there is one: the same bytes.
+  if [[ -f $work/one/fragments.csv ]] && ! cmp "$work/one/fragments.csv" "$2/fragments.csv"; then
+    echo "FAILED: $1: another census"
     failed=1
   fi
 }

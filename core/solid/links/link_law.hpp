@@ -50,9 +50,16 @@ struct LinkWrench {
   Triple<V> force, torque_i, torque_j;
 };
 
-/// `pressure_i`, `pressure_j`: lambda epsilon of the two particles, Pa.
+/// What criteria of fracture need of a gap: gap . S n (m3), |gap|^2 (m2), energy of bending and twisting (J).
 template <class V>
-inline LinkWrench<V> link_wrench(LinkRest<V> const& rest, LinkEnds<V> const& at, V pressure_i, V pressure_j) {
+struct LinkGap {
+  V opened, squared, flexure;
+};
+
+/// `pressure_i`, `pressure_j`: lambda epsilon of the two particles, Pa. `gap`: filled when it is wanted.
+template <class V>
+inline LinkWrench<V> link_wrench(LinkRest<V> const& rest, LinkEnds<V> const& at, V pressure_i, V pressure_j,
+                                 LinkGap<V>* gap = nullptr) {
   LinkFrame<V> const frame(rest, at);
   V const p = multiply_add(rest.weight, pressure_i - pressure_j, pressure_j);  // w_IJ p_I + w_JI p_J
   LinkWrench<V> out;
@@ -63,6 +70,7 @@ inline LinkWrench<V> link_wrench(LinkRest<V> const& rest, LinkEnds<V> const& at,
   Triple<V> const q = cross_add(at.q_j.v, at.q_i.v, multiply_add(at.q_i.w, at.q_j.v, V(-1.0) * (at.q_j.w * at.q_i.v)));
   Triple<V> const cq = symmetric_times(rest.bending, q);
   Triple<V> const moment = frame.r_i * cross_add(q, cq, q0 * cq);
+  if (gap) *gap = {dot(frame.gap, frame.area), dot(frame.gap, frame.gap), dot(q, cq)};
 
   Triple<V> const pull = (V(0.5) * p) * frame.gap;
   out.torque_i = cross_add(frame.a_i, out.force, cross_add(pull, frame.area_i, moment));

@@ -48,8 +48,9 @@ void LinkStore::add_opened_volume(std::span<Pose const> pose, std::span<double> 
   }
 }
 
-void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> pressure,
-                           std::span<Wrench> wrench) const {
+template <bool with_gaps>
+void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
+                           std::span<GapBlock> gaps) const {
   for (std::size_t at = 0; at < blocks_.size(); ++at) {
     LinkBlock const& b = blocks_[at];
     if (at + ahead < blocks_.size())
@@ -57,11 +58,22 @@ void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> p
         fetch(&pose[static_cast<std::size_t>(j)]);
         fetch(&wrench[static_cast<std::size_t>(j)]);
       }
+    LinkGap<Lanes> gap;
     LinkWrench<Lanes> const w = link_wrench(read_rest(b), read_ends(pose.data(), b), gather(pressure.data(), b.i),
-                                            gather(pressure.data(), b.j));
+                                            gather(pressure.data(), b.j), with_gaps ? &gap : nullptr);
+    if constexpr (with_gaps) {
+      gap.opened.store_aligned(gaps[at].opened.data());
+      gap.squared.store_aligned(gaps[at].squared.data());
+      gap.flexure.store_aligned(gaps[at].flexure.data());
+    }
     add_to_ends(b, w, wrench);
   }
 }
+
+template void LinkStore::add_wrench<false>(std::span<Pose const>, std::span<double const>, std::span<Wrench>,
+                                           std::span<GapBlock>) const;
+template void LinkStore::add_wrench<true>(std::span<Pose const>, std::span<double const>, std::span<Wrench>,
+                                          std::span<GapBlock>) const;
 
 LinkEnds<double> ends_of(Pose const& i, Pose const& j) {
   auto triple = [](Vec3 const& v) { return Triple<double>{v.x, v.y, v.z}; };

@@ -14,6 +14,11 @@ struct alignas(64) LinkBlock {
   std::array<std::array<double, lanes>, 17> rest{};
 };
 
+/// Gaps of four links, as LinkGap has them.
+struct alignas(32) GapBlock {
+  std::array<double, lanes> opened, squared, flexure;
+};
+
 class LinkStore {
  public:
   /// Adds a link at the end; add them in global order.
@@ -29,9 +34,20 @@ class LinkStore {
   /// Adds to `opened` of both ends the volume their links open, m3.
   void add_opened_volume(std::span<Pose const> pose, std::span<double> opened) const;
   /// Adds the forces and torques of all links to both ends. `pressure`: lambda epsilon, Pa.
-  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench) const;
+  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench) const {
+    add_wrench<false>(pose, pressure, wrench, {});
+  }
+  /// The same, and leaves the gaps of all links in `gaps`, four to a block in the order of the store.
+  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
+                  std::span<GapBlock> gaps) const {
+    add_wrench<true>(pose, pressure, wrench, gaps);
+  }
+  std::size_t blocks() const { return blocks_.size(); }
 
  private:
+  template <bool with_gaps>
+  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
+                  std::span<GapBlock> gaps) const;
   // Every particle receives its links one after the other in the order of the store, which is the global order: the
   // sums have the same bits whatever the lane or rank. Lanes left over in the last block have no stiffness and add
   // zero.

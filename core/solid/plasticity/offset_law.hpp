@@ -47,6 +47,15 @@ inline V offset_energy(LinkRest<V> const& rest, LinkEnds<V> const& at, LinkOffse
   return rest.stiffness * dot(frame.offset, V(0.5) * frame.offset - frame.gap);
 }
 
+/// The gap less the offset, as criteria of fracture take it; bending is not its matter.
+template <class V>
+inline LinkGap<V> elastic_gap(LinkRest<V> const& rest, LinkEnds<V> const& at, LinkOffset<V> const& plastic) {
+  OffsetFrame<V> const frame(rest, at, plastic);
+  Triple<V> const gap = frame.gap - frame.offset;
+  Triple<V> const area = V(0.5) * (frame.r_i * rest.area + frame.r_j * rest.area);
+  return {dot(gap, area), dot(gap, gap), V(0.0)};
+}
+
 /// -dE/d(e n) per unit of d: force of the link in the mean of both body frames, N.
 template <class V>
 inline Triple<V> driving_force(LinkRest<V> const& rest, LinkEnds<V> const& at, LinkOffset<V> const& plastic) {

@@ -113,12 +113,18 @@ LinkOffset<double> PlasticStrain::offset_of(std::size_t link) const {
   return {{f(0), f(1), f(2)}, f(3), f(4), {f(5), f(6), f(7)}};
 }
 
-void PlasticStrain::add_wrench(std::span<Pose const> pose, std::span<Wrench> wrench) const {
+void PlasticStrain::add_wrench(std::span<Pose const> pose, std::span<Wrench> wrench, std::span<GapBlock> gaps) const {
   for (std::size_t n = 0; n < blocks_.size(); ++n) {
     if (!blocks_[n].strained) continue;
     LinkBlock const& b = links_.records()[n];
-    LinkWrench<Lanes> const w = offset_wrench(read_rest(b), read_ends(pose.data(), b), read(blocks_[n]));
-    add_to_ends(b, w, wrench);
+    LinkRest<Lanes> const rest = read_rest(b);
+    LinkEnds<Lanes> const ends = read_ends(pose.data(), b);
+    LinkOffset<Lanes> const plastic = read(blocks_[n]);
+    add_to_ends(b, offset_wrench(rest, ends, plastic), wrench);
+    if (gaps.empty()) continue;
+    LinkGap<Lanes> const gap = elastic_gap(rest, ends, plastic);
+    gap.opened.store_aligned(gaps[n].opened.data());
+    gap.squared.store_aligned(gaps[n].squared.data());
   }
 }
 

@@ -34,7 +34,8 @@ class PlasticStrain {
 
   /// Volumes that plastic strain opens at free faces, m3: S d n.e n.
   void add_opened_volume(std::span<double> opened) const;
-  void add_wrench(std::span<Pose const> pose, std::span<Wrench> wrench) const;
+  /// `gaps`: of all links or empty; what plastic strain opens is taken out of them, so that criteria see stress.
+  void add_wrench(std::span<Pose const> pose, std::span<Wrench> wrench, std::span<GapBlock> gaps = {}) const;
   LinkWrench<double> wrench(std::size_t link, LinkEnds<double> const& at) const;
   /// What is added to the elastic energy of a link and of a particle, J.
   Real link_energy(std::size_t link, LinkEnds<double> const& at) const;

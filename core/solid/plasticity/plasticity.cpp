@@ -160,6 +160,12 @@ void Plasticity::join(Plan& plan) {
     dissipated_ = {};
     links_broken_ = 0;
   });
+  plan.particle_field("plastic_strain", [this](std::span<double> to) {
+    for (std::size_t p = 0; p < to.size(); ++p) to[p] = state_[p].p;
+  });
+  plan.particle_field("temperature", [this](std::span<double> to) {
+    for (std::size_t p = 0; p < to.size(); ++p) to[p] = state_[p].temperature;
+  });
   keep(plan);
 }
 

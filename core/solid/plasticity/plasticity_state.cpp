@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "core/solid/plasticity/plasticity.hpp"
-#include "parallel/archive.hpp"
+#include "core/solid/rows.hpp"
 
 namespace brisance::solid {
 namespace {
@@ -13,18 +13,6 @@ constexpr std::uint32_t plastic_kind = 0x504c4153;  // "PLAS"
 std::array<double, PlasticState::columns> row_of(PlasticState const& s) {
   return {s.strain.c[0], s.strain.c[1], s.strain.c[2], s.strain.c[3], s.strain.c[4],
           s.strain.c[5], s.p,           s.damage,      s.temperature, s.stored};
-}
-
-/// Consecutive ids as ranges of rows.
-std::vector<parallel::Range> ranges_of(std::span<GlobalId const> ids) {
-  std::vector<parallel::Range> ranges;
-  for (GlobalId const id : ids) {
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == id)
-      ++ranges.back().count;
-    else
-      ranges.push_back({id, 1});
-  }
-  return ranges;
 }
 
 }  // namespace
@@ -68,10 +56,10 @@ void Plasticity::keep(Plan& plan) {
     spread();
   };
   keep.write = [this](parallel::ArchiveWriter& file) {
-    file.rows("solid/plasticity", solid_.mesh().size(), PlasticState::columns, ranges_of(solid_.owned_ids()), pack());
+    file.rows("solid/plasticity", solid_.mesh().size(), PlasticState::columns, rows_of(solid_.owned_ids()), pack());
   };
   keep.read = [this](parallel::ArchiveReader& file) {
-    unpack(file.rows("solid/plasticity", PlasticState::columns, ranges_of(solid_.owned_ids())));
+    unpack(file.rows("solid/plasticity", PlasticState::columns, rows_of(solid_.owned_ids())));
     spread();  // the driving stress follows in start
   };
   keep.digest = [this](parallel::Digest& digest) {

@@ -46,7 +46,11 @@ class Case {
       NearCell cell;
       cell.id = id;
       cell.cell = cell_from_id(grid_, id);
-      cell.volume = record_.volume(cell.cell);
+      cell.volume = cell.volume_before = record_.volume(cell.cell);
+      for (int d = 0; d < 2; ++d)
+        for (int side = 0; side < 2; ++side)
+          cell.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] =
+              record_.aperture(cell.cell, d, side);
       cell.rewritten = record_.cut_index(cell.cell) >= 0;
       cell.mine = true;
       State const u = state(cell.cell);
@@ -64,8 +68,8 @@ class Case {
         std::lower_bound(cells_.begin(), cells_.end(), id, [](NearCell const& n, GlobalId i) { return n.id < i; });
     return f != cells_.end() && f->id == id ? &*f : nullptr;
   }
-  std::string merge() { return merge_small_cells(record_, small_cell, cells_); }
-  std::string merge(std::vector<NearCell>& some) const { return merge_small_cells(record_, small_cell, some); }
+  std::string merge() { return merge_small_cells(grid_, small_cell, Sight::everything, cells_).trouble; }
+  Merging merge(std::vector<NearCell>& some) const { return merge_small_cells(grid_, small_cell, Sight::halo, some); }
   /// Of the grid before transposition; the momentum is not turned, it is a label that must arrive unchanged.
   CellIndex place(NearCell const& n) const {
     return transposed_ ? CellIndex{n.cell[1], n.cell[0], 0} : CellIndex{n.cell[0], n.cell[1], 0};
@@ -242,7 +246,9 @@ TEST(Mixing, APartOfTheGridGivesTheSameBits) {
       n.mine = n.cell[0] >= low && n.cell[0] < high;
       part.push_back(n);
     }
-    ASSERT_EQ(whole.merge(part), "");
+    Merging const merging = whole.merge(part);
+    ASSERT_EQ(merging.trouble, "");
+    ASSERT_FALSE(merging.outgrown);
     for (NearCell const& n : part) {
       if (!n.mine) continue;
       NearCell const& reference = *whole.at(n.cell);
@@ -250,6 +256,55 @@ TEST(Mixing, APartOfTheGridGivesTheSameBits) {
       EXPECT_EQ(n.mean, reference.mean);
     }
   }
+}
+
+TEST(Mixing, AGroupBeyondTheHaloAsksForEverything) {
+  Case c = bar();
+  // A deficit that takes more cells than the halo shows.
+  NearCell* worst = nullptr;
+  for (NearCell& n : c.cells())
+    if (n.cell[0] == 45 && n.rewritten && n.volume > 0.6) worst = &n;
+  ASSERT_NE(worst, nullptr);
+  worst->amount[4] -= 150;
+  std::vector<NearCell> part;
+  for (NearCell n : c.cells()) {
+    if (n.cell[0] < 30 - mixing_halo || n.cell[0] >= 60 + mixing_halo) continue;
+    n.mine = n.cell[0] >= 30 && n.cell[0] < 60;
+    part.push_back(n);
+  }
+  EXPECT_TRUE(c.merge(part).outgrown);
+  ASSERT_EQ(c.merge(), "");
+  CellIndex low{90, 90, 0}, high{};
+  for (NearCell const& n : c.cells()) {
+    if (!n.grouped) continue;
+    EXPECT_TRUE(positive(n.mean));
+    if (n.mean != worst->mean) continue;
+    low[0] = std::min(low[0], n.cell[0]), high[0] = std::max(high[0], n.cell[0]);
+  }
+  EXPECT_GT(high[0] - low[0], largest_group);
+  expect_conserved(c.cells());
+}
+
+TEST(Mixing, CellsOfAGapKeepTheirOwnState) {
+  // Two blocks with a gap of a fifth of a cell between them: every cell of it is small, as open as it is full.
+  auto const block = [](Real x0, Real x1) {
+    return testing::outline({{x0, 10.3, 0}, {x1, 10.3, 0}, {x1, 30.7, 0}, {x0, 30.7, 0}});
+  };
+  testing::Shape blocks = block(20.5, 30.3);
+  blocks.append(block(30.5, 40.5));
+  Case c(blocks, {60, 40});
+  NearCell* const inside = c.at({30, 20, 0});
+  ASSERT_NE(inside, nullptr);
+  EXPECT_NEAR(inside->volume, 0.2, 1e-12);
+  ASSERT_EQ(c.merge(), "");
+  EXPECT_FALSE(inside->grouped);
+  EXPECT_TRUE(c.at({30, 10, 0})->grouped || c.at({30, 10, 0})->volume > small_cell);
+  // While the walls close fast, it shares with a larger cell.
+  inside->volume_before = 0.5;
+  c.at({30, 21, 0})->volume = 0.22;
+  ASSERT_EQ(c.merge(), "");
+  EXPECT_TRUE(inside->grouped);
+  expect_conserved(c.cells());
 }
 
 }  // namespace
