@@ -13,8 +13,10 @@ namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
   static std::vector<std::string> const names{
-      "fluid.euler",   "fluid.viscosity",  "fluid.gravity",  "solid.motion",       "solid.links",
-      "solid.gravity", "solid.plasticity", "solid.fracture", "coupling.cut_cells", "output.gauges"};
+      "fluid.euler",       "fluid.viscosity",     "fluid.gravity",      "solid.motion",     "solid.links",
+      "solid.gravity",     "solid.supports",      "solid.pressure",     "solid.traction",   "solid.blast",
+      "solid.point_force", "solid.moment_tensor", "solid.absorbing",    "solid.plasticity", "solid.contact",
+      "solid.damping",     "solid.fracture",      "coupling.cut_cells", "output.gauges",    "output.solid_gauges"};
   return names;
 }
 
@@ -137,6 +139,25 @@ parallel::Partition assign_owners(Scene const& scene, fluid::Grid const* grid, s
   return parallel::partition(graph, ranks, units);
 }
 
+namespace {
+
+/// Every rank reads and cuts the bodies for itself: a mesh file that differs between machines would end in nonsense.
+void require_same_mesh(solid::Mesh const& mesh, parallel::Comm& comm) {
+  std::uint64_t hash = 0;
+  for (solid::Particle const& p : mesh.particles)
+    for (int d = 0; d < 3; ++d) hash = 0x100000001B3u * (hash ^ std::bit_cast<std::uint64_t>(p.centre[d]));
+  std::array<Real, 4> ends{};
+  for (std::size_t half = 0; half < 2; ++half) {
+    ends[2 * half] = static_cast<Real>(hash >> (32 * half) & 0xFFFFFFFFu);
+    ends[2 * half + 1] = -ends[2 * half];
+  }
+  comm.min(std::span(ends));
+  require(ends[0] == -ends[1] && ends[2] == -ends[3], Failure::system,
+          "the ranks built different bodies: do all machines see the same mesh files and run the same program?");
+}
+
+}  // namespace
+
 std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   auto world = std::make_unique<World>();
   World& w = *world;
@@ -166,10 +187,25 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (coupled && scene.fluid->products)
     scene_error(scene.fluid->products->at,
                 "fluid.products: cut cells do not carry products yet; use charges of model \"balloon\" beside solids.");
+  if (coupled && scene.solid->contact)
+    scene_error(scene.solid->contact->at,
+                "solid.contact and coupling.cut_cells do not go together yet: the gas between bodies that touch has no "
+                "cells. Leave contact out beside a fluid, or cut_cells out where the gas does not matter");
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
+    require_same_mesh(*w.mesh, comm);
     w.surface = std::make_shared<solid::Surface>(*w.mesh);
   }
+  if (coupled && w.mesh->has(solid::FarSide::Kind::shifted))
+    scene_error(
+        scene.solid->at,
+        "coupling.cut_cells: a periodic body has no closed surface for the gas to meet. Model the whole body, or "
+        "leave out the coupling");
+  if (coupled && w.mesh->has(solid::FarSide::Kind::mirror))
+    scene_error(
+        scene.solid->at,
+        "coupling.cut_cells: the gas would press on the faces that lie on a plane of symmetry, as on all others. "
+        "Model the whole body, or leave out the coupling");
   if (coupled) require_clear_periodic_sides(scene, *grid, *w.mesh, *w.surface);
   if (coupled) require_gauges_in_the_gas(scene, *grid, *w.mesh);
   if (coupled) w.cut_cells_of_block = count_cut_cells(*grid, *w.mesh, *w.surface);
@@ -219,6 +255,13 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (!scene.output.gauge.empty()) {
     w.gauges = std::make_unique<fluid::Gauges>(scene.output.gauge, *scene.fluid, *w.flow, fluid_volumes(w));
     w.gauges->join(w.plan);
+  }
+  if (!scene.output.solid_gauge.empty()) {
+    std::vector<std::string> taken;
+    for (fluid::GaugeConfig const& gauge : scene.output.gauge) taken.push_back(gauge.name);
+    solid::check(scene.output.solid_gauge, taken, *w.mesh, scene.end_time);
+    w.solid_gauges = std::make_unique<solid::SolidGauges>(scene.output.solid_gauge, *w.solid, comm);
+    w.solid_gauges->join(w.plan);
   }
   TimeControl const control{scene.end_time, w.flow ? fluid::steps_per_pair(w.dimension) : 1,
                             scene.output.interval.value_or(0)};

@@ -5,6 +5,7 @@
 
 #include "core/model/simulation.hpp"
 #include "core/solid/effects.hpp"
+#include "core/solid/gauges/gauges.hpp"
 #include "core/solid/mesh.hpp"
 #include "core/solid/solid.hpp"
 #include "core/solid/surface.hpp"
@@ -36,6 +37,7 @@ struct World {
   std::vector<std::unique_ptr<Effect>> solid_effects;
   std::unique_ptr<coupling::CutCells> cut_cells;
   std::unique_ptr<fluid::Gauges> gauges;
+  std::unique_ptr<solid::SolidGauges> solid_gauges;
   Plan plan;
   std::unique_ptr<Simulation> simulation;
 };

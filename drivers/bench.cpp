@@ -10,6 +10,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/solid/bench_links.hpp"
+#include "core/solid/contact/bench_contact.hpp"
 #include "coupling/geometry/bench.hpp"
 #include "drivers/commands.hpp"
 #include "fluid/bench_steps.hpp"
@@ -66,6 +67,9 @@ std::vector<Bench> all_benches(parallel::Comm& comm) {
   benches.push_back({"solid.links.cache", [](auto const& roofs) { return link_row("solid.links.cache", 10, roofs); }});
   benches.push_back(
       {"solid.links.memory", [](auto const& roofs) { return link_row("solid.links.memory", 96, roofs); }});
+  benches.push_back({"solid.contact", [](auto const&) {
+                       return Row{"solid.contact", solid::bench_contact(20), not_counted, not_counted, not_counted};
+                     }});
   benches.push_back({"coupling.cut_cells",
                      [](auto const&) { return geometry_row("coupling.cut_cells", coupling::bench_cut_cells()); }});
   benches.push_back({"coupling.closest_points", [](auto const&) {

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/solid/loads/blast_report.hpp"
+#include "core/solid/meshes/quality.hpp"
 #include "drivers/assembly.hpp"
 #include "drivers/commands.hpp"
 #include "drivers/log.hpp"
@@ -95,12 +97,30 @@ std::string human_time(Real seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
+nlohmann::ordered_json mesh_report(solid::MeshQuality const& q, solid::Mesh const& mesh) {
+  nlohmann::ordered_json j = {{"body", mesh.bodies[static_cast<std::size_t>(q.body)].name},
+                              {"parts", q.parts},
+                              {"volume_deviation", q.volume},
+                              {"worst_angle_degrees", q.angle.value},
+                              {"face_offset", q.offset},
+                              {"worst_aspect_ratio", q.aspect.value},
+                              {"single_layer_share", q.single_layer},
+                              {"stairs", q.stairs}};
+  if (q.moduli)
+    j["effective"] = {{"poisson_ratio", q.poisson_ratio},       {"patch_particles", q.patch},
+                      {"young_deviation", q.moduli->young},     {"shear_deviation", q.moduli->shear},
+                      {"poisson_deviation", q.moduli->poisson}, {"scatter", q.moduli->scatter}};
+  j["warnings"] = solid::warnings(q, mesh);
+  return j;
+}
+
 std::string why_off(std::string const& effect, Scene const& scene) {
   std::string const domain = effect.substr(0, effect.find('.'));
   bool const open = domain == "fluid"    ? scene.fluid.has_value()
                     : domain == "solid"  ? scene.solid.has_value()
                     : domain == "output" ? true
                                          : scene.coupling.has_value();
+  if (open && effect == "solid.supports") return "no support moves by a history or turns";
   return open ? effect.substr(effect.find('.') + 1) + " is not in [" + domain + "]" : "no [" + domain + "]";
 }
 
@@ -169,6 +189,9 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
   Real const wall = steps * per_step / options.ranks * worst;
 
   if (comm.rank() != 0) return 0;
+  bool const linked = world->solid && scene.solid->links;
+  auto const quality = linked ? solid::measure_quality(*world->mesh) : std::vector<solid::MeshQuality>{};
+  solid::StepLimit const step_limit = linked ? solid::describe_step_limit(*world->solid) : solid::StepLimit{};
   std::vector<std::string> on;
   for (Plan::EffectCost const& e : world->plan.effects()) on.push_back(e.name);
   auto const active = [&](std::string const& name) { return std::find(on.begin(), on.end(), name) != on.end(); };
@@ -193,6 +216,9 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
                               {"pressure", c.pressure}});
     if (!world->plan.remarks().empty()) j["remarks"] = world->plan.remarks();
     if (scene.fluid) j["options"] = {{"fluid.sleep", world->flow->may_sleep()}};
+    for (solid::MeshQuality const& q : quality) j["meshes"].push_back(mesh_report(q, *world->mesh));
+    if (!step_limit.text.empty())
+      j["step_limit"] = {{"text", step_limit.text}, {"share_of_median", step_limit.share_of_median}};
     j["dt"] = {{"initial", dt}, {"limited_by", limited_by}};
     j["steps"] = std::ceil(steps);
     j["ranks"] = options.ranks;
@@ -220,6 +246,17 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
   }
   fmt::print("\nsize\n  {} cells in {} blocks, {} cut; {} particles, {} links\n", cells, blocks, cut, particles, links);
   fmt::print("  memory per rank: at most {:.0f} MB on {} ranks\n", most / 1e6, options.ranks);
+  if (linked) fmt::print("\nmesh of the solid\n");
+  for (solid::MeshQuality const& q : quality) {
+    fmt::print("  {}: {}\n", world->mesh->bodies[static_cast<std::size_t>(q.body)].name,
+               solid::describe(q, *world->mesh));
+    for (std::string const& text : solid::warnings(q, *world->mesh)) fmt::print("  warning: {}\n", text);
+  }
+  if (!step_limit.text.empty()) fmt::print("  {}\n", step_limit.text);
+  if (scene.solid && !scene.solid->blast.empty()) {
+    fmt::print("\nblasts\n");
+    for (std::string const& line : solid::describe_blasts(*scene.solid, *world->mesh)) fmt::print("  {}\n", line);
+  }
   if (!charges.empty()) fmt::print("\ncharges\n");
   for (fluid::ChargeReport const& c : charges) {
     fmt::print("  {}\n", fluid::describe(c, world->dimension));

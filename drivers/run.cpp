@@ -7,9 +7,11 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/solid/loads/blast_report.hpp"
 #include "drivers/checkpoints.hpp"
 #include "drivers/commands.hpp"
 #include "drivers/log.hpp"
+#include "drivers/mesh_files.hpp"
 #include "drivers/output.hpp"
 #include "drivers/summary.hpp"
 #include "fluid/charges.hpp"
@@ -122,19 +124,26 @@ int execute(Job const& job, parallel::Comm& comm) {
   bool const fresh = job.checkpoints.empty();
   if (!job.same_scene) {
     parallel::write_text_atomically(comm, job.directory + "/scene.toml", job.loaded.text);
-    parallel::write_text_atomically(comm, job.directory + "/scene.resolved.toml", job.loaded.resolved());
+    LoadedScene kept = job.loaded;
+    keep_mesh_files(kept.scene, job.directory, comm);
+    parallel::write_text_atomically(comm, job.directory + "/scene.resolved.toml", kept.resolved());
   }
   if (fresh) forget_checkpoints(comm, job.directory);
 
   if (fresh) {
     start(*world, scene);
     log_charges(*world, scene);
+    if (scene.solid)
+      for (std::string const& line : solid::describe_blasts(*scene.solid, *world->mesh)) spdlog::info("{}", line);
   } else {
     resume(*world, job.checkpoints);
     start_effects(*world);
   }
   if (world->gauges)
     for (std::string const& remark : world->gauges->open(job.directory, simulation.clock())) spdlog::warn("{}", remark);
+  if (world->solid_gauges)
+    for (std::string const& remark : world->solid_gauges->open(job.directory, simulation.clock()))
+      spdlog::warn("{}", remark);
   Output output(*world, scene, job.directory);
   comm.barrier();
   if (fresh)
@@ -168,6 +177,7 @@ int execute(Job const& job, parallel::Comm& comm) {
     std::int64_t const retries = simulation.statistics().retries;
     simulation.pair();
     if (world->gauges) world->gauges->accept(simulation.clock());
+    if (world->solid_gauges) world->solid_gauges->accept(simulation.clock());
     if (simulation.statistics().retries > retries && warnings++ < 20)
       spdlog::warn("step {}: a pair of steps was redone with dt = {:.3g} s: {}", simulation.clock().step,
                    simulation.clock().dt, simulation.statistics().last_rejection);

@@ -50,6 +50,8 @@ void check_sections(Scene const& scene) {
       std::string("[coupling] needs both [fluid] and [solid]; [") + (scene.fluid ? "solid" : "fluid") + "] is missing");
   require(scene.output.gauge.empty() || scene.fluid, scene.output.at,
           "output.gauge: gauges stand in the gas, and the scene has no [fluid]");
+  require(scene.output.solid_gauge.empty() || scene.solid, scene.output.at,
+          "output.solid_gauge: these gauges watch the solid, and the scene has no [solid]");
 }
 
 }  // namespace
@@ -69,6 +71,8 @@ void OutputConfig::keys(Keys<OutputConfig>& k) {
     "component")
       .words = fluid::cell_field_names();
   k("gauge", &OutputConfig::gauge, "", "points where the gas is watched; each writes gauges/NAME.csv");
+  k("solid_gauge", &OutputConfig::solid_gauge, "",
+    "particles, surface points, supports and sections of the solid that are watched; each writes gauges/NAME.csv");
 }
 
 void Scene::keys(Keys<Scene>& k) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/keys.hpp"
+#include "core/solid/gauges/gauge_config.hpp"
 #include "core/solid/solid_config.hpp"
 #include "coupling/coupling_config.hpp"
 #include "fluid/flow_config.hpp"
@@ -20,6 +21,7 @@ struct OutputConfig {
   std::optional<double> history_interval;     // s
   std::vector<std::string> fields = {"density", "pressure", "velocity"};
   std::vector<fluid::GaugeConfig> gauge;
+  std::vector<solid::SolidGaugeConfig> solid_gauge;
   Location at;
   static void keys(Keys<OutputConfig>& k);
 };

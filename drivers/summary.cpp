@@ -38,6 +38,19 @@ nlohmann::ordered_json gauge_figures(fluid::Gauges const& gauges) {
   return all;
 }
 
+nlohmann::ordered_json gauge_figures(solid::SolidGauges const& gauges) {
+  nlohmann::ordered_json all;
+  for (std::size_t g = 0; g < gauges.configs().size(); ++g) {
+    Vec3 const& place = gauges.probe(g).place();
+    RowSampler const& rows = gauges.rows(g);
+    nlohmann::ordered_json figures{{"place", {place.x, place.y, place.z}}};
+    for (std::size_t c = 0; c < rows.columns().size(); ++c)
+      figures[rows.columns()[c]] = {number_or_null(rows.lowest()[c]), number_or_null(rows.highest()[c])};
+    all[gauges.configs()[g].name] = figures;
+  }
+  return all;
+}
+
 }  // namespace
 
 void update_extrema(World& world, RunState& run) {
@@ -55,6 +68,7 @@ void update_extrema(World& world, RunState& run) {
 void write_summary(World& world, RunState const& run, std::string const& directory) {
   parallel::Comm& comm = *world.comm;
   if (world.gauges) world.gauges->flush();
+  if (world.solid_gauges) world.solid_gauges->flush();
   Simulation& simulation = *world.simulation;
   std::string const digest = simulation.digest().hex();
 
@@ -163,6 +177,7 @@ void write_summary(World& world, RunState const& run, std::string const& directo
                       {"imbalance_measured", imbalance(busy)},
                       {"edge_cut", world.partition.edge_cut}};
     if (world.gauges) j["gauges"] = gauge_figures(*world.gauges);
+    if (world.solid_gauges) j["solid_gauges"] = gauge_figures(*world.solid_gauges);
     j["state_digest"] = digest;
     text = j.dump(2) + "\n";
   }

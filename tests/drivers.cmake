@@ -81,3 +81,35 @@ brisance_expect(scene_wrong_override CODE 2 LABELS unit ABSENT ${work}/out_overr
                 COMMAND ${brisance} run ${work}/good.toml --out ${work}/out_override --set fluid.euler.order=4)
 brisance_expect(scene_fault.3ranks CODE 2 RANKS 3 LABELS parallel MESSAGE "^[^:]*brisance: error: [^:]*good.toml:2:1: [^:]*$|fluid.euler.order = 4 is"
                 COMMAND ${brisance} run ${work}/good.toml --out ${work}/out_override --set fluid.euler.order=4)
+
+# Supports, damping and gauges of the solid.
+set(body "end_time = 1\n[solid]\nlinks = {}\n[solid.material.m]\ndensity = 1\nyoung_modulus = 1\n[[solid.body]]\nname = \"b\"\nmaterial = \"m\"\nlow = [0, 0, 0]\nhigh = [2, 1, 1]\ncells = [2, 1, 1]\n")
+scene_fault(history_descends "history_descends.toml:13:[0-9]+: .*body .b.: prescribed.history: its times must ascend, but 1.* s comes after 2"
+            "${body}prescribed = [{ low = [0, 0, 0], high = [1, 1, 1], history = [{ time = 2 }, { time = 1 }] }]\n")
+scene_fault(turn_without_centre "turn_without_centre.toml:13:[0-9]+: .*clamp turns: give the point about which it does as .centre."
+            "${body}clamp = [{ low = [0, 0, 0], high = [0, 1, 1], spin = [1, 0, 0] }]\n")
+scene_fault(two_motions "two_motions.toml:13:[0-9]+: .*clamp: give either a constant .velocity. and .spin. or a .history. of them"
+            "${body}clamp = [{ low = [0, 0, 0], high = [0, 1, 1], velocity = [1, 0, 0], history = [{ time = 0 }] }]\n")
+scene_fault(periodic_alone "periodic_alone.toml:7:1: .*body .b. is periodic along y with one cell, which would be its own neighbour: take at least 2"
+            "${body}periodic = [\"y\"]\n")
+scene_fault(periodic_voronoi "periodic_voronoi.toml:7:1: .*only a box of cartesian cells can be periodic"
+            "${body}periodic = [\"x\"]\ntessellation = \"voronoi\"\n")
+scene_fault(gradient_of_four "gradient_of_four.toml:13:[0-9]+: .*initial_velocity.gradient needs 9 numbers, row by row, and has 4"
+            "${body}initial_velocity = [{ gradient = [1, 2, 3, 4] }]\n")
+scene_fault(damping_without_rate "damping_without_rate.toml:13:[0-9]+: solid.damping: viscous damping needs a .rate., in 1/s"
+            "${body}[solid.damping]\nuntil = 1\n")
+scene_fault(kinetic_with_rate "kinetic_with_rate.toml:13:[0-9]+: solid.damping: kinetic damping has no .rate."
+            "${body}[solid.damping]\nlaw = \"kinetic\"\nrate = 1\n")
+set(gas_and_half "end_time = 1\n[fluid]\nhigh = [1, 1]\ncells = [16, 16]\neuler = {}\n[coupling]\ncut_cells = {}\n[solid]\nlinks = {}\n[solid.material.m]\ndensity = 1\nyoung_modulus = 1\n[[solid.body]]\nmaterial = \"m\"\nlow = [0.4, 0]\nhigh = [0.6, 0.4]\ncells = [2, 2]\n")
+scene_fault(mirror_in_gas "mirror_in_gas.toml:8:1: coupling.cut_cells: the gas would press on the faces that lie on a plane of symmetry"
+            "${gas_and_half}symmetry = [{ low = [0, 0], high = [1, 0] }]\n")
+scene_fault(periodic_in_gas "periodic_in_gas.toml:8:1: coupling.cut_cells: a periodic body has no closed surface"
+            "${gas_and_half}periodic = [\"x\"]\n")
+function(solid_gauge_fault name regex keys)
+  scene_fault(${name} "${regex}" "${body}[[output.solid_gauge]]\nname = \"g\"\ninterval = 1\n${keys}")
+endfunction()
+solid_gauge_fault(gauge_of_nothing "gauge_of_nothing.toml:13:1: output.solid_gauge .g.: no support lies in its box" "watch = \"support\"\n")
+solid_gauge_fault(gauge_nowhere "gauge_nowhere.toml:13:1: output.solid_gauge .g. needs a .position." "")
+solid_gauge_fault(gauge_no_normal "gauge_no_normal.toml:13:1: .*a section needs the .normal. of its plane" "watch = \"section\"\nposition = [1, 0, 0]\n")
+solid_gauge_fault(gauge_beside "gauge_beside.toml:13:1: .*its plane cuts no link" "watch = \"section\"\nposition = [5, 0, 0]\nnormal = [1, 0, 0]\n")
+solid_gauge_fault(gauge_no_body "gauge_no_body.toml:13:1: .*there is no body .c.; the nearest name is .b." "position = [0, 0, 0]\nbody = \"c\"\n")

@@ -30,6 +30,16 @@ brisance_same_digest(ductile ${PROJECT_SOURCE_DIR}/tests/support/scenes/ductile.
 brisance_same_digest(consistent ${PROJECT_SOURCE_DIR}/tests/support/scenes/consistent.toml 80)
 brisance_same_digest(bursting-wheel ${scenes}/bursting-wheel.toml 80 --set solid.body.0.particles=300)
 brisance_same_digest(break-up ${PROJECT_SOURCE_DIR}/tests/support/scenes/break-up.toml 44)
+brisance_same_digest(rods-and-plates ${PROJECT_SOURCE_DIR}/tests/support/scenes/rods-and-plates.toml 120)
+brisance_same_digest(two-bars ${scenes}/two-bars.toml 40)
+brisance_same_digest(filled-surfaces ${PROJECT_SOURCE_DIR}/tests/support/scenes/filled-surfaces.toml 40)
+brisance_same_digest(supports ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports.toml 120)
+brisance_same_digest(paddle ${PROJECT_SOURCE_DIR}/tests/support/scenes/paddle.toml 40)
+brisance_same_digest(kinetic ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports.toml 120
+                     --set "solid.damping={law=\"kinetic\", residual=1e-3}")
+brisance_same_digest(loads ${PROJECT_SOURCE_DIR}/tests/support/scenes/loads.toml 60)
+brisance_same_digest(blast-plate ${scenes}/blast-plate.toml 80)
+brisance_same_digest(brick-wall ${scenes}/brick-wall.toml 200 --set output.interval=1 --set "solid.body.1.velocity=[60, 0, 0]")
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
@@ -38,6 +48,8 @@ function(brisance_same_gauges name scene steps)
   set_tests_properties(same_gauges.${name} PROPERTIES LABELS "parallel;restart" PROCESSORS 2 TIMEOUT 600)
 endfunction()
 brisance_same_gauges(gauges ${PROJECT_SOURCE_DIR}/tests/support/scenes/gauges.toml 160)
+brisance_same_gauges(supports ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports.toml 120)
+brisance_same_gauges(paddle ${PROJECT_SOURCE_DIR}/tests/support/scenes/paddle.toml 40)
 brisance_same_gauges(merged ${PROJECT_SOURCE_DIR}/tests/support/scenes/gauges-in-a-box.toml 24)
 brisance_same_gauges(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 40)
 brisance_same_gauges(explosion-box-3d ${scenes}/explosion-box-3d.toml 12 --set fluid.block=32 --set output.interval=1e-5
@@ -51,6 +63,13 @@ foreach(fault overlapping-bodies non-convex-cells)
   brisance_expect(scene_${fault} CODE 2 LABELS unit MESSAGE "${says_${fault}}" ABSENT ${runs}/${fault}
                   COMMAND ${program} run ${scene} --out ${runs}/${fault})
 endforeach()
+brisance_expect(scene_no_face_loaded CODE 2 LABELS unit ABSENT ${runs}/unloaded
+                MESSAGE "loads.toml:[0-9]+:[0-9]+: solid.traction.0. selects no face: none of the .* of solid.body .block."
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/loads.toml --out ${runs}/unloaded
+                        --set "solid.traction.0.normal=[0, 0, -1]")
+brisance_expect(scene_blast_too_far CODE 2 LABELS unit ABSENT ${runs}/far
+                MESSAGE "blast-plate.toml:[0-9]+:[0-9]+: solid.blast.0.: a face at .* published from 0.147 to 40"
+                COMMAND ${program} run ${scenes}/blast-plate.toml --out ${runs}/far --set "solid.blast.0.mass=1e-6")
 brisance_expect(scene_wall_leaves_its_cell CODE 2 LABELS unit ABSENT ${runs}/wall
                 MESSAGE "sides.toml:[0-9]+:[0-9]+: fluid.boundary.y_low is a wall that moves by"
                 COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/sides.toml --out ${runs}/wall
@@ -63,10 +82,25 @@ brisance_expect(scene_fracture_without_links CODE 2 LABELS unit ABSENT ${runs}/n
                 COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/free-particles.toml --out ${runs}/no-links)
 brisance_expect(check_bursting-wheel CODE 0 LABELS unit MESSAGE "solid.fracture +on.*300 particles.*warning: the softening zone of 0.0521 m"
                 COMMAND ${program} check ${scenes}/bursting-wheel.toml --ranks 2 --set solid.body.0.particles=300)
+brisance_expect(run_rods-and-plates CODE 0 LABELS verification
+                MESSAGE "momentum [0-9.]+e-1[4-9], exchange energy 0.0e.00, energy [0-9.]+e-0[7-9]"
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/rods-and-plates.toml --out ${runs}/rods-and-plates-whole)
 brisance_expect(check_explosion-cylinder CODE 0 LABELS unit MESSAGE "coupling.cut_cells +on.*180000 cells.*50 particles, 50 links"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --ranks 4)
 brisance_expect(check_explosion-box-3d CODE 0 LABELS unit MESSAGE "solid.gravity +off: .*output.gauges +on.*416 particles.*charges +fluid.charge.0.: 1 kg of gas with 4.184 MJ above"
                 COMMAND ${program} check ${scenes}/explosion-box-3d.toml --ranks 2)
+brisance_expect(check_two-bars CODE 0 LABELS unit
+                MESSAGE "bar: 976 particles; worst angle .* a patch of 600 of them at nu = 0.33: E .[0-9.]+ %.*warning: a face of particle [0-9]+ at .*allows the shortest step"
+                COMMAND ${program} check ${scenes}/two-bars.toml)
+brisance_expect(mesh_group_missing CODE 2 LABELS unit ABSENT ${runs}/no-group
+                MESSAGE "two-bars.toml:[0-9]+:[0-9]+: solid.body .bar.: .*meshes/two-bars.msh: no element is in a physical volume .copper.. Physical volumes: aluminium, steel"
+                COMMAND ${program} run ${scenes}/two-bars.toml --out ${runs}/no-group --set "solid.body.0.mesh.group=\"copper\"")
+
+brisance_expect(check_brick-wall CODE 0 LABELS unit MESSAGE "solid.contact +on.*contact +solid.contact.*372 particles, 833 links"
+                COMMAND ${program} check ${scenes}/brick-wall.toml --ranks 2)
+brisance_expect(scene_contact_in_a_gas CODE 2 LABELS unit ABSENT ${runs}/contact-gas
+                MESSAGE "solid.contact and coupling.cut_cells do not go together yet.*Leave contact out"
+                COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/contact-gas --set solid.contact.friction=0.3)
 
 brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)

@@ -3,10 +3,20 @@ brisance_test(solid_unit
           unit/core/solid/link_law_test.cpp unit/core/solid/surface_test.cpp unit/core/solid/solid_test.cpp
           unit/core/solid/plasticity_test.cpp
           unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
+          unit/core/solid/contact_test.cpp unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
           unit/core/solid/fracture/link_laws_test.cpp unit/core/solid/fracture/fragments_test.cpp
   LINKS brisance::solid LABELS unit)
+brisance_test(solid_meshes
+  SOURCES unit/core/solid/meshes/gmsh_test.cpp unit/core/solid/meshes/surface_test.cpp
+          unit/core/solid/meshes/quality_test.cpp
+  LINKS brisance::solid LABELS unit)
 brisance_test(solid_statics SOURCES verification/solid/statics_test.cpp LINKS brisance::solid LABELS verification)
-brisance_test(solid_rods SOURCES verification/solid/rods_test.cpp LINKS brisance::solid Eigen3::Eigen LABELS verification)
+add_library(brisance_linear_solid STATIC support/linear_solid.cpp support/uniaxial.cpp)
+target_link_libraries(brisance_linear_solid PUBLIC brisance::solid Eigen3::Eigen PRIVATE brisance_test_main)
+target_compile_options(brisance_linear_solid PRIVATE -Wno-conversion)
+foreach(part elastica patch plates pressure rods sphere waves)
+  brisance_test(solid_${part} SOURCES verification/solid/${part}_test.cpp LINKS brisance_linear_solid LABELS verification)
+endforeach()
 brisance_test(solid_rotation SOURCES verification/solid/rotation_test.cpp LINKS brisance::solid Eigen3::Eigen
   LABELS verification)
 brisance_test(solid_stable_step SOURCES verification/solid/stable_step_test.cpp LINKS brisance::solid LABELS verification)
@@ -19,3 +29,12 @@ brisance_test(solid_consistent SOURCES verification/solid/consistent_test.cpp LI
 brisance_test(solid_two_materials SOURCES verification/solid/two_materials_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_fracture SOURCES verification/solid/fracture_test.cpp verification/solid/fracture_account_test.cpp
   LINKS brisance::solid LABELS verification)
+brisance_test(solid_supports SOURCES verification/solid/supports_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_damping SOURCES verification/solid/damping_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_supports_parallel SOURCES parallel/supports_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
+brisance_test(solid_loads_unit SOURCES unit/core/solid/loads/blast_test.cpp unit/core/solid/loads/load_test.cpp
+  LINKS brisance::solid LABELS unit)
+brisance_test(solid_loads SOURCES verification/solid/loads_test.cpp verification/solid/lamb_test.cpp
+  LINKS brisance::solid LABELS verification)
+brisance_test(solid_contact SOURCES verification/solid/contact_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_contact_bits SOURCES parallel/contact_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)

@@ -44,7 +44,11 @@ void Ledger::audit(parallel::Comm& comm) {
   Real const energy_scale = max(max(std::abs(totals_[at(Entry::energy)]), std::abs(reference_[at(Entry::energy)])),
                                 crossed(Entry::exchanged_energy));
   Real const energy = change(Entry::energy) - crossed(Entry::in_energy) + crossed(Entry::dissipated);
-  result_.energy = max(result_.energy, relative(energy, energy_scale));
+  // What starts from rest has hardly any energy in its first steps: the largest defect is held against the largest
+  // scale.
+  largest_defect_ = max(largest_defect_, std::abs(energy));
+  largest_scale_ = max(largest_scale_, energy_scale);
+  result_.energy = relative(largest_defect_, largest_scale_);
   result_.energy_final = energy_scale > 0 ? energy / energy_scale : energy;
   Real const exchange = change(Entry::fluid_energy) - crossed(Entry::fluid_in_energy) + crossed(Entry::wall_work);
   result_.exchange_energy = max(result_.exchange_energy, relative(exchange, energy_scale));
@@ -55,9 +59,9 @@ std::array<Real, Ledger::stored_size> Ledger::store() const {
   std::copy(reference_.begin(), reference_.end(), out.begin());
   std::copy(totals_.begin(), totals_.end(), out.begin() + entry_count);
   std::copy(crossed_.begin(), crossed_.end(), out.begin() + 2 * entry_count);
-  std::array<Real, 8> const rest{started_ ? 1.0 : 0.0, result_.mass,        result_.momentum.x,
-                                 result_.momentum.y,   result_.momentum.z,  result_.exchange_energy,
-                                 result_.energy,       result_.energy_final};
+  std::array<Real, 10> const rest{
+      started_ ? 1.0 : 0.0,    result_.mass,   result_.momentum.x,   result_.momentum.y, result_.momentum.z,
+      result_.exchange_energy, result_.energy, result_.energy_final, largest_defect_,    largest_scale_};
   std::copy(rest.begin(), rest.end(), out.begin() + 3 * entry_count);
   return out;
 }
@@ -69,6 +73,8 @@ void Ledger::restore(std::array<Real, stored_size> const& in) {
   auto const* rest = in.data() + 3 * entry_count;
   started_ = rest[0] != 0;
   result_ = {rest[1], {rest[2], rest[3], rest[4]}, rest[5], rest[6], rest[7]};
+  largest_defect_ = rest[8];
+  largest_scale_ = rest[9];
   sums_ = {};
 }
 

@@ -36,7 +36,7 @@ enum class Entry : std::size_t {
 };
 constexpr std::size_t entry_count = static_cast<std::size_t>(Entry::count);
 
-/// Largest relative defects over the run.
+/// Largest relative defects over the run; of the energy, the largest defect over the largest scale.
 struct Conservation {
   Real mass = 0;
   Vec3 momentum;
@@ -59,7 +59,7 @@ class Ledger {
   Real received(Entry entry) const { return crossed_[static_cast<std::size_t>(entry)]; }
 
   /// Everything a restart needs, as doubles; the same on every rank.
-  static constexpr std::size_t stored_size = 2 * entry_count + entry_count + 8;
+  static constexpr std::size_t stored_size = 2 * entry_count + entry_count + 10;
   std::array<Real, stored_size> store() const;
   void restore(std::array<Real, stored_size> const& stored);
 
@@ -67,6 +67,7 @@ class Ledger {
   std::array<parallel::ExactSum, entry_count> sums_{};
   std::array<Real, entry_count> reference_{}, totals_{}, crossed_{};  // crossed: sums of the increments since the start
   bool started_ = false;
+  Real largest_defect_ = 0, largest_scale_ = 0;  // of the energy, J
   Conservation result_;
 };
 

@@ -37,12 +37,12 @@ struct Measures {
 /// Impulse (kg m/s), angular impulse about the origin (kg m2/s) and work (J) of supports on the solid.
 struct Reactions {
   std::array<parallel::ExactSum, 7> sums;
-  void add(Real dt, Vec3 const& force, Vec3 const& torque_about_origin, Vec3 const& velocity) {
+  void add(Real dt, Vec3 const& force, Vec3 const& torque_about_origin, Real power) {
     for (int d = 0; d < 3; ++d) {
       sums[static_cast<std::size_t>(d)].add(dt * force[d]);
       sums[static_cast<std::size_t>(3 + d)].add(dt * torque_about_origin[d]);
     }
-    sums[6].add(dt * dot(force, velocity));
+    sums[6].add(dt * power);
   }
   Vec3 impulse() const { return {sums[0].value(), sums[1].value(), sums[2].value()}; }
   Vec3 angular_impulse() const { return {sums[3].value(), sums[4].value(), sums[5].value()}; }

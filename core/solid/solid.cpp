@@ -35,8 +35,9 @@ Solid::Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner
   store_particles();
   store_links();
   if (volumetric_ && config.links && config.links->volumetric == "consistent" && ConsistentStrain::needed(mesh))
-    consistent_ = std::make_unique<ConsistentStrain>(
-        mesh, links_, ids_, mesh_link_, [this](std::span<double> rows, auto width) { exchange_rows(rows, width); });
+    consistent_ =
+        std::make_unique<ConsistentStrain>(mesh, links_, ids_, mesh_link_, pose_.size(),
+                                           [this](std::span<double> rows, auto width) { exchange_rows(rows, width); });
   compute_forces();
 }
 
@@ -141,9 +142,14 @@ void Solid::store_particles() {
 
 LinkRest<double> Solid::rest_of(Link const& link) const {
   FaceGeometry const& face = mesh_.face(link.i, link.face_i);
-  // The wall is a particle at rest at the origin: its arm is the place of the face itself.
-  Vec3 const arm_j =
-      mesh_.particle(link.i).centre + face.centroid - (link.j == Link::wall ? Vec3{} : mesh_.particle(link.j).centre);
+  // A wall is a particle: at rest at the origin, or where its motion starts. An image has the arm of its far side.
+  Vec3 const place = mesh_.particle(link.i).centre + face.centroid;
+  Vec3 origin = link.j == Link::wall ? Vec3{} : mesh_.particle(link.j).centre + mesh_.shift(link);
+  if (FarSide const* side = mesh_.far_side(link)) {
+    if (side->kind == FarSide::Kind::moving_wall) origin = mesh_.motions[at(side->motion)].centre();
+    if (side->kind == FarSide::Kind::mirror) origin = side->image(mesh_.particle(link.i).centre);
+  }
+  Vec3 const arm_j = place - origin;
   auto const bending = symmetric(bending_tensor(mesh_, link));
   LinkRest<double> rest{link.stiffness,        link.weight,   triple(face.area * face.normal),
                         triple(face.centroid), triple(arm_j), {}};
@@ -151,45 +157,87 @@ LinkRest<double> Solid::rest_of(Link const& link) const {
   return rest;
 }
 
+Index Solid::far_end(Link const& link) {
+  bool const wall = link.j == Link::wall;
+  FarSide const* side = mesh_.far_side(link);
+  if (!side) return wall ? count_ : local(link.j);
+  bool const moves = side->kind == FarSide::Kind::moving_wall;
+  Index const of = moves ? -1 : local(wall ? link.i : link.j);
+  auto const [found, fresh] = entry_of_.try_emplace({link.far, of}, static_cast<Index>(pose_.size()));
+  if (!fresh) return found->second;
+  pose_.emplace_back();
+  wrench_.emplace_back();
+  opened_.push_back(0);
+  pressure_.push_back(0);
+  if (moves) {
+    pose_.back().x = mesh_.motions[at(side->motion)].centre();
+    walls_.push_back({found->second, side->motion, {}, {}, pose_.back()});
+  } else {
+    images_.push_back({found->second, of, link.far});
+  }
+  return found->second;
+}
+
 void Solid::store_links() {
   for (std::size_t l : mesh_link_) {
     Link const& link = mesh_.links[l];
-    bool const wall = link.j == Link::wall;
-    if (wall && local(link.i) < owned_) clamps_.push_back(links_.count());
-    links_.add(local(link.i), wall ? count_ : local(link.j), rest_of(link));
+    if (link.j == Link::wall && local(link.i) < owned_) clamps_.push_back(links_.count());
+    links_.add(local(link.i), far_end(link), rest_of(link));
   }
 }
 
 void Solid::load_faces(std::span<FaceLoad const> loads) {
-  loaded_.clear();
+  face_tractions_.clear();
   std::fill(face_opening_.begin(), face_opening_.end(), 0.0);
-  for (FaceLoad const& load : loads) {
-    Index const l = local(load.particle);
-    if (l < 0) continue;
-    FaceGeometry const& face = mesh_.face(load.particle, load.face);
-    Real distance = 0;
-    for (FreeFace const& f : mesh_.free_faces_of(load.particle))
-      if (f.face == load.face && !f.clamped) distance = f.distance;
-    Real const normal = dot(load.traction, face.normal), shear = mesh_.material(load.particle).shear();
-    face_opening_[at(l)] += face.area * distance / (2 * shear) * normal;
-    loaded_.push_back({l, face.area * load.traction, face.centroid,
-                       face.area * distance / (4 * shear) * normal * normal, face.normal,
-                       face.area * distance * normal});
-  }
+  add_loaded_faces(loads);
+}
+
+std::size_t Solid::add_loaded_faces(std::span<FaceLoad const> loads) {
+  std::size_t const first = face_tractions_.faces().size();
+  for (FaceLoad const& load : loads)
+    if (Index const l = local(load.particle); l >= 0)
+      face_tractions_.add(mesh_, load.particle, load.face, l, load.traction);
+  tractions_changed();
+  return first;
+}
+
+Real Solid::gap_volume(std::size_t link) const {
+  return opened_volume(links_.rest(link), ends_of(pose_[at(links_.end_i(link))], pose_[at(links_.end_j(link))]));
 }
 
 void Solid::start_exchange() { halo_.start(comm_, pose_, half_); }
-void Solid::finish_exchange() { halo_.finish(pose_, half_); }
+void Solid::finish_exchange() {
+  halo_.finish(pose_, half_);
+  place_images();
+}
+
+void Solid::place_images() {
+  for (Image const& image : images_) {
+    FarSide const& side = mesh_.far_sides[at(image.far)];
+    Pose const& from = pose_[at(image.of)];
+    Pose& to = pose_[at(image.entry)];
+    to = from;
+    to.x = side.image(from.x);
+    // Turns are axial: a mirror keeps what is along its normal.
+    if (side.kind == FarSide::Kind::mirror) to.q.v = (2 * dot(side.vector, from.q.v)) * side.vector - from.q.v;
+  }
+}
 
 void Solid::compute_strains() {
+  place_images();
   if (!volumetric_) return;
   std::size_t const n = at(count_);
   std::copy(face_opening_.begin(), face_opening_.end(), opened_.begin());
+  std::fill(opened_.begin() + count_, opened_.end(), 0.0);
   links_.add_opened_volume(pose_, opened_);
+  for (Image const& image : images_)  // what links to images shifted from j open belongs to j
+    if (mesh_.far_sides[at(image.far)].kind == FarSide::Kind::shifted)
+      opened_[at(image.of)] += opened_[at(image.entry)];
   if (consistent_) consistent_->move_volume(pose_, opened_);
   if (plastic_) plastic_->add_opened_volume(opened_);
   for (std::size_t p = 0; p < n; ++p) pressure_[p] = bulk_[p] * opened_[p];
   if (consistent_) consistent_->take_pressure(pressure_);
+  for (Image const& image : images_) pressure_[at(image.entry)] = pressure_[at(image.of)];
 }
 
 void Solid::compute_forces() {
@@ -201,13 +249,12 @@ void Solid::compute_forces() {
     links_.add_wrench(pose_, pressure_, wrench_);
   if (consistent_) consistent_->add_wrench(pose_, wrench_);
   if (plastic_) plastic_->add_wrench(pose_, wrench_, gaps_);
-  for (LoadedFace const& face : loaded_) {
-    Wrench& w = wrench_[at(face.particle)];
-    Quaternion const& q = pose_[at(face.particle)].q;
-    Vec3 const force = rotate(q, face.force);
-    w.force += force;
-    w.torque += cross(rotate(q, face.arm), force);
-  }
+  for (Image const& image : images_)
+    if (mesh_.far_sides[at(image.far)].kind == FarSide::Kind::shifted) {
+      wrench_[at(image.of)].force += wrench_[at(image.entry)].force;
+      wrench_[at(image.of)].torque += wrench_[at(image.entry)].torque;
+    }
+  face_tractions_.add_wrench(pose_, wrench_);
 }
 
 }  // namespace brisance::solid

@@ -1,10 +1,13 @@
 // The solid of one rank: its particles, the ghosts they need, their links, and the verbs of a step.
 #pragma once
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/solid/face_tractions.hpp"
 #include "core/solid/halo.hpp"
 #include "core/solid/links/consistent_strain.hpp"
 #include "core/solid/links/link_store.hpp"
@@ -77,15 +80,21 @@ class Solid {
   void finish_exchange();
   /// Internal forces and torques of owned particles at the current poses. Collective with consistent strains.
   void compute_forces();
-  /// The first part of compute_forces: opened volumes and strain pressures at the current poses.
+  /// The first part of compute_forces: images, opened volumes and strain pressures at the current poses.
   void compute_strains();
   /// A step without a fluid: kick_and_drift, exchange, forces, half_kick.
   void step(Real dt);
 
-  /// Tractions on boundary faces until the next call; the same list on every rank.
-  /// Expects: free faces of the mesh, by particle.  They enter forces and volumetric strains at the next
-  /// compute_forces.
+  /// Tractions on boundary faces until the next call; the same list on every rank, each face once.
+  /// Expects: free faces of the mesh.  They enter forces and volumetric strains at the next compute_forces.
   void load_faces(std::span<FaceLoad const> loads);
+  /// More of them. Returns the place of the first in face_tractions().
+  std::size_t add_loaded_faces(std::span<FaceLoad const> loads);
+  /// The loaded faces of this rank, in the order in which they were given. After a change of their tractions,
+  /// tractions_changed().
+  FaceTractions& face_tractions() { return face_tractions_; }
+  FaceTractions const& face_tractions() const { return face_tractions_; }
+  void tractions_changed() { face_tractions_.open(face_opening_); }
 
   // Links of this rank, in global order: those of owned particles and of the first layer of ghosts.
   LinkStore const& link_store() const { return links_; }
@@ -107,6 +116,42 @@ class Solid {
   /// V times the stress that drives the plastic strain of the first particles, J, at the last compute_strains and the
   /// present plastic strain. `same_poses`: as at the last call.  Expects: allow_plasticity.
   void driving_stress(std::span<Symmetric> to, bool same_poses = false);
+  /// S d n.e n: the part of plastic strain in the extension of a loaded face, m3.
+  Real plastic_extension(FaceTractions::Face const& face) const;
+
+  /// The motion of a wall in a step: its place and turn at the start and at the end, and the velocities between them.
+  struct WallStep {
+    Pose from, to;
+    Vec3 v, omega;
+  };
+  /// Of Mesh::motions: the walls that follow it go on from `from`; they arrive at `to` with the next drift.
+  void drive_walls(Index motion, WallStep const& step);
+  /// Gives an owned particle that is not free another velocity (m/s), spin (kg m2/s) and half velocity; what the change
+  /// takes is booked as impulse and work of its support.
+  void drive(Index particle, Vec3 const& v, Vec3 const& spin, HalfVelocity const& half);
+  /// Owned particles that are fixed or prescribed.
+  std::span<Index const> held() const { return held_; }
+  /// J w in the fixed frame at the present turn, kg m2/s, and the inverse, rad/s.
+  Vec3 spin_of(Index particle, Vec3 const& omega) const;
+  Vec3 omega_of(Index particle, Vec3 const& spin) const;
+
+  /// The particle at the far end of a link: behind an image the particle it shows; count() for walls.
+  Index end_j(std::size_t link) const;
+  /// Poses of both ends of a link; the far one may be a wall or an image.
+  LinkEnds<double> link_ends(std::size_t link) const;
+  /// Force on particle i of a link and torques about its ends, at the last compute_forces.
+  LinkWrench<double> wrench_of(std::size_t link) const;
+  /// Energy of a link in this body, J: of a link to a mirror image the half on this side.
+  Real link_energy(std::size_t link) const;
+  /// S du . n of a link at the present poses: the volume its gap opens, m3.
+  Real gap_volume(std::size_t link) const;
+  /// Volume opened by the tractions on the faces of a particle, m3.
+  Real face_opening(Index particle) const { return face_opening_[static_cast<std::size_t>(particle)]; }
+  /// lambda over the effective volume, Pa/m3: pressure() over opened().
+  Real bulk(Index particle) const { return bulk_[static_cast<std::size_t>(particle)]; }
+  /// A free face of a particle here that something outside holds with the stiffness of its half link: the stable step
+  /// counts it as clamped.
+  void hold_face(Index particle, int face) { held_faces_.emplace(particle, face); }
 
   /// Makes room for damage; without it every link is whole for ever.
   void allow_damage() {
@@ -124,11 +169,8 @@ class Solid {
   /// Gaps of the links of this rank, four to a block, at the last compute_forces; `opened` and `flexure` are those of
   /// what is left of a link.  Expects: allow_damage.
   std::span<GapBlock const> gaps() const { return gaps_; }
-  /// Ends of a link; the wall is at rest at the origin.
-  LinkEnds<double> link_ends(std::size_t link) const {
-    return ends_of(pose_[static_cast<std::size_t>(links_.end_i(link))],
-                   pose_[static_cast<std::size_t>(links_.end_j(link))]);
-  }
+  /// Changes whenever a link breaks or a broken one is put back: what depends on open faces is then due.
+  std::uint64_t breaks() const { return breaks_; }
   /// Does a link that is not broken join two particles? Expects: one of them owned or in the first layer of ghosts.
   bool linked(GlobalId a, GlobalId b) const;
 
@@ -152,6 +194,9 @@ class Solid {
   Real stable_step() const { return stable_limit().dt; }
   /// The bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
   StableStep link_limit() const;
+  /// The bound 2/omega_I of each owned particle, s; 1e300 where it has no link or does not move freely.
+  std::span<double const> step_limits() const;
+  Real link_limit_of(Index owned) const { return step_limits()[static_cast<std::size_t>(owned)]; }
 
   // The parts of the energy, J: of a particle with its rotation, of its volumetric strain (owned and first layer, at
   // the last compute_forces), and of a link.
@@ -160,7 +205,6 @@ class Solid {
     auto const at = static_cast<std::size_t>(particle);
     return 0.5 * pressure_[at] * opened_[at];
   }
-  Real link_energy(std::size_t link) const;
   /// Adds the sums over owned particles and links to `to`; add over ranks with Comm::sum.
   void measure(Measures& to) const;
   /// Impulse and work of the reactions of fixed, prescribed and clamped parts since the last call; resets them. This
@@ -186,6 +230,8 @@ class Solid {
   void store_particles();
   void store_links();
   LinkRest<double> rest_of(Link const& link) const;
+  Index far_end(Link const& link);
+  void place_images();
   void set_bulk(GlobalId particle);
   template <bool with_kick, bool with_drift>
   void advance(Real dt);
@@ -204,7 +250,7 @@ class Solid {
   std::vector<Index> local_;
   Halo halo_;
 
-  // One entry more than particles: the wall, at rest at the origin, the far end of clamped faces.
+  // Behind the particles the far ends that are none: the wall at rest at the origin, walls that move, images.
   std::vector<Pose> pose_;
   std::vector<Wrench> wrench_;
   std::vector<double> opened_, pressure_;
@@ -218,23 +264,29 @@ class Solid {
   std::vector<Inertia> inertia_;
   std::vector<std::size_t> mesh_link_;  // links of this rank as indices into the mesh, in global order
   std::vector<Index> held_;             // owned fixed or prescribed particles
-  std::vector<std::size_t> clamps_;     // links to the wall whose particle is owned
+  std::vector<std::size_t> clamps_;     // links to a wall or mirror whose particle is owned
+  struct Wall {
+    Index entry, motion;
+    Vec3 v{}, omega{};  // between the ends of the step
+    Pose to{};
+  };
+  std::vector<Wall> walls_;  // those that move
+  struct Image {
+    Index entry, of, far;
+  };
+  std::vector<Image> images_;
+  std::map<std::pair<Index, Index>, Index> entry_of_;  // (far side, particle or -1) -> entry
 
   LinkStore links_;
   std::vector<double> intact_;  // 1 - d of the links; empty without damage
   std::size_t broken_ = 0;
-  std::vector<GapBlock> gaps_;                    // empty without damage
+  std::vector<GapBlock> gaps_;  // empty without damage
+  std::uint64_t breaks_ = 0;
   bool volumetric_ = false;                       // some lambda is not zero
   std::unique_ptr<PlasticStrain> plastic_;        // null: elastic
   std::unique_ptr<ConsistentStrain> consistent_;  // null: basic volumetric term
-  struct LoadedFace {
-    Index particle;
-    Vec3 force, arm;  // body frame
-    Real stored;      // S d t_n^2 / 4G
-    Vec3 normal;
-    Real pull;  // S d t_n
-  };
-  std::vector<LoadedFace> loaded_;
+  FaceTractions face_tractions_;
+  std::multimap<Index, int> held_faces_;
   Reactions reactions_;
   mutable std::vector<double> link_limits_;
 };

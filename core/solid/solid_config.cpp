@@ -30,24 +30,18 @@ void MotionConfig::keys(Keys<MotionConfig>& k) {
   k("cfl", &MotionConfig::cfl, "1", "fraction of the guaranteed stable step").above(0).at_most(1);
 }
 
-void HoldConfig::keys(Keys<HoldConfig>& k) {
-  k("low", &HoldConfig::low, "m", "lower corner of the box").required();
-  k("high", &HoldConfig::high, "m", "upper corner of the box").required();
-}
-
-void PrescribedConfig::keys(Keys<PrescribedConfig>& k) {
-  k("low", &PrescribedConfig::low, "m", "lower corner of the box").required();
-  k("high", &PrescribedConfig::high, "m", "upper corner of the box").required();
-  k("velocity", &PrescribedConfig::velocity, "m/s", "constant velocity of the particles in the box").required();
-}
-
 void BodyConfig::keys(Keys<BodyConfig>& k) {
   k("name", &BodyConfig::name, "", "name in messages and results");
-  k("material", &BodyConfig::material, "", "one of solid.material").required();
+  k("material", &BodyConfig::material, "",
+    "one of solid.material; may be left out for a mesh whose physical volumes bear the names of materials");
   k("shape", &BodyConfig::shape, "", "geometric shape")
-      .one_of({"box", "plate", "prism", "cylinder", "tube", "sphere", "shell"});
-  k("tessellation", &BodyConfig::tessellation, "", "how the shape is cut into convex particles")
-      .one_of({"cartesian", "polar", "voronoi"});
+      .one_of({"box", "plate", "prism", "cylinder", "tube", "sphere", "shell", "mesh"});
+  k("tessellation", &BodyConfig::tessellation, "",
+    "how the shape is cut into convex particles; not given: cartesian, or for a mesh: the elements of a .msh, voronoi "
+    "in "
+    "a convex surface, tetrahedra in another")
+      .one_of({"cartesian", "polar", "voronoi", "elements", "tetrahedra"});
+  k("mesh", &BodyConfig::mesh, "", "mesh: the file and how to take it");
   k("low", &BodyConfig::low, "m", "box, prism: lower corner");
   k("high", &BodyConfig::high, "m", "box, prism: upper corner");
   k("centre", &BodyConfig::centre, "m", "plate, cylinder, tube, sphere, shell: centre");
@@ -59,16 +53,26 @@ void BodyConfig::keys(Keys<BodyConfig>& k) {
   k("width", &BodyConfig::width, "m", "plate: second side").above(0);
   k("thickness", &BodyConfig::thickness, "m", "plate: thickness along its normal").above(0);
   k("phase", &BodyConfig::phase, "rad", "polar: angle of the first corner about the axis");
-  k("corners", &BodyConfig::corners, "m", "prism: x, y of its corners, counter-clockwise, one convex particle");
+  k("corners", &BodyConfig::corners, "m",
+    "prism: x, y of its corners, counter-clockwise; cartesian: one convex particle");
   k("cells", &BodyConfig::cells, "", "cartesian: particles along each side; polar: radial, around, axial").at_least(1);
   k("particles", &BodyConfig::particles, "", "voronoi: number of particles").at_least(1);
   k("seed", &BodyConfig::seed, "", "voronoi: seed of the generators");
   k("lloyd", &BodyConfig::lloyd, "", "voronoi: sweeps that move generators to the centres of their cells").at_least(0);
   k("velocity", &BodyConfig::velocity, "m/s", "initial velocity");
   k("spin", &BodyConfig::spin, "rad/s", "initial angular velocity about the centre of mass");
+  k("initial_velocity", &BodyConfig::initial_velocity, "", "velocities of parts of the body, or linear in space");
   k("hold", &BodyConfig::hold, "", "boxes: particles with their centre inside are fixed");
-  k("clamp", &BodyConfig::clamp, "", "boxes: boundary faces that lie inside are tied to a rigid wall by half links");
-  k("prescribed", &BodyConfig::prescribed, "", "boxes: particles with their centre inside move as prescribed");
+  k("clamp", &BodyConfig::clamp, "",
+    "boxes: boundary faces that lie inside are tied to a rigid wall, at rest or moving, by half links");
+  k("symmetry", &BodyConfig::symmetry, "",
+    "boxes: boundary faces that lie inside slide on their own plane, beyond which the body goes on as its mirror "
+    "image");
+  k("periodic", &BodyConfig::periodic, "",
+    "box of cartesian cells: directions in which its ends are linked to each other")
+      .one_of({"x", "y", "z"});
+  k("prescribed", &BodyConfig::prescribed, "",
+    "boxes: particles with their centre inside move as one rigid body, as prescribed");
 }
 
 bool SolidConfig::breaks() const {
@@ -85,6 +89,14 @@ void SolidConfig::keys(Keys<SolidConfig>& k) {
   k("motion", &SolidConfig::motion, "", "time integration of the particles");
   k("gravity", &SolidConfig::gravity, "m/s2", "acceleration of gravity");
   k("fracture", &SolidConfig::fracture, "", "links weaken and break by the criteria of its laws");
+  k("damping", &SolidConfig::damping, "", "damping of the particles, such as for a state at rest under dead loads");
+  k("pressure", &SolidConfig::pressure, "", "pressures on boundary faces");
+  k("traction", &SolidConfig::traction, "", "forces per area on boundary faces");
+  k("blast", &SolidConfig::blast, "", "air blasts of charges of TNT on boundary faces, by published tables: no fluid");
+  k("point_force", &SolidConfig::point_force, "", "forces at points");
+  k("moment_tensor", &SolidConfig::moment_tensor, "", "seismic sources");
+  k("absorbing", &SolidConfig::absorbing, "", "boundary faces that let plane waves out");
+  k("contact", &SolidConfig::contact, "", "contact between bodies and between fragments");
 }
 
 }  // namespace brisance::solid

@@ -9,8 +9,13 @@
 #include "core/base/location.hpp"
 #include "core/base/vec3.hpp"
 #include "core/solid/bonds.hpp"
+#include "core/solid/contact/contact_config.hpp"
+#include "core/solid/damping/damping_config.hpp"
 #include "core/solid/fracture/fracture_config.hpp"
+#include "core/solid/loads/load_config.hpp"
+#include "core/solid/meshes/mesh_file_config.hpp"
 #include "core/solid/plasticity/plasticity_config.hpp"
+#include "core/solid/supports/support_config.hpp"
 
 namespace brisance {
 template <class T>
@@ -40,38 +45,30 @@ struct MotionConfig {
   static void keys(Keys<MotionConfig>& k);
 };
 
-/// An axis-parallel box in the reference state.  Units: m.
-struct HoldConfig {
-  Vec3 low{}, high{};
-  static void keys(Keys<HoldConfig>& k);
-};
-
-/// Particles whose centre lies in the box move at a constant velocity.  Units: m, m/s.
-struct PrescribedConfig {
-  Vec3 low{}, high{}, velocity{};
-  static void keys(Keys<PrescribedConfig>& k);
-};
-
 /// One body: a shape, its dimensions, and the tessellation that cuts it into convex particles.
 /// In 2D bodies are prisms over 0 <= z <= 1 m; in 1D slabs over 0 <= y, z <= 1 m.
 struct BodyConfig {
-  std::string name = "body", material, shape = "box", tessellation = "cartesian";
-  std::optional<Vec3> low, high;                   // box, prism (z only)
-  std::optional<Vec3> centre;                      // all others: centre of the shape
-  Vec3 axis{0, 0, 1};                              // cylinder, tube, plate (its normal)
-  std::optional<Real> radius;                      // cylinder, sphere
-  std::optional<Real> inner_radius, outer_radius;  // tube, shell
-  std::optional<Real> length;                      // cylinder, tube: along the axis; plate: first side
-  std::optional<Real> width, thickness;            // plate: second side, along the normal
-  Real phase = 0;                                  // polar: angle of the first corner, rad
-  std::vector<Real> corners;                       // prism: x0, y0, x1, y1, ... counter-clockwise, m
-  std::array<Index, 3> cells{1, 1, 1};             // cartesian: along the sides; polar: radial, around, axial
-  int particles = 100;                             // voronoi: how many
-  std::int64_t seed = 1;                           // voronoi: of the generators
-  int lloyd = 20;                                  // voronoi: sweeps towards centroidal cells
-  Vec3 velocity{}, spin{};                         // m/s; rad/s about the mass centre of the body
-  std::vector<HoldConfig> hold, clamp;             // particles with their centre, boundary faces lying, in a box
-  std::vector<PrescribedConfig> prescribed;
+  std::string name = "body", material, shape = "box";  // material: may come from the groups of a mesh file
+  std::optional<std::string> tessellation;             // cartesian; of a mesh file: elements, voronoi or tetrahedra
+  std::optional<MeshFileConfig> mesh;                  // shape "mesh"
+  std::optional<Vec3> low, high;                       // box, prism (z only)
+  std::optional<Vec3> centre;                          // all others: centre of the shape
+  Vec3 axis{0, 0, 1};                                  // cylinder, tube, plate (its normal)
+  std::optional<Real> radius;                          // cylinder, sphere
+  std::optional<Real> inner_radius, outer_radius;      // tube, shell
+  std::optional<Real> length;                          // cylinder, tube: along the axis; plate: first side
+  std::optional<Real> width, thickness;                // plate: second side, along the normal
+  Real phase = 0;                                      // polar: angle of the first corner, rad
+  std::vector<Real> corners;                           // prism: x0, y0, x1, y1, ... counter-clockwise, m
+  std::array<Index, 3> cells{1, 1, 1};                 // cartesian: along the sides; polar: radial, around, axial
+  int particles = 100;                                 // voronoi: how many
+  std::int64_t seed = 1;                               // voronoi: of the generators
+  int lloyd = 20;                                      // voronoi: sweeps towards centroidal cells
+  Vec3 velocity{}, spin{};                             // m/s; rad/s about the mass centre of the body
+  std::vector<InitialVelocityConfig> initial_velocity;
+  std::vector<HoldConfig> hold, symmetry;       // particles with their centre, boundary faces lying, in a box
+  std::vector<DrivenConfig> clamp, prescribed;  // boundary faces, particles
+  std::vector<std::string> periodic;            // axes
   Location at;
   static void keys(Keys<BodyConfig>& k);
 };
@@ -85,6 +82,14 @@ struct SolidConfig {
   std::optional<Vec3> gravity;  ///< m/s2
   std::optional<FractureConfig> fracture;
   bool breaks() const;  ///< may links break?
+  std::optional<DampingConfig> damping;
+  std::vector<PressureConfig> pressure;
+  std::vector<TractionConfig> traction;
+  std::vector<BlastConfig> blast;
+  std::vector<PointForceConfig> point_force;
+  std::vector<MomentTensorConfig> moment_tensor;
+  std::vector<AbsorbingConfig> absorbing;
+  std::optional<ContactConfig> contact;
   Location at;
   static void keys(Keys<SolidConfig>& k);
 };

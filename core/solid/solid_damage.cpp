@@ -38,6 +38,7 @@ void Solid::set_bulk(GlobalId particle) {
 void Solid::weaken(std::size_t link, Real intact) {
   if (intact_[link] == 0) --broken_;
   if (intact == 0) ++broken_;
+  if ((intact == 0) != (intact_[link] == 0)) ++breaks_;
   intact_[link] = intact;
   Link const& of = mesh_.links[mesh_link_[link]];
   LinkRest<double> rest = rest_of(of);

@@ -81,24 +81,69 @@ void Solid::measure(Measures& to) const {
   for (std::size_t k = 0; k < links_.count(); ++k) {
     if (links_.end_i(k) < owned_) to.add(Measures::elastic, link_energy(k));
   }
-  for (LoadedFace const& face : loaded_) {
+  for (FaceTractions::Face const& face : face_tractions_.faces()) {
     if (face.particle >= owned_) continue;
-    to.add(Measures::elastic, -face.stored);
-    if (plastic_)
-      to.add(Measures::elastic, -face.pull * dot(face.normal, plastic_->strain()[at(face.particle)] * face.normal));
+    to.add(Measures::elastic, FaceTractions::energy(face));
+    if (plastic_) to.add(Measures::elastic, -face.normal_traction() * plastic_extension(face));
   }
 }
 
-Real Solid::link_energy(std::size_t link) const {
-  LinkEnds<double> const ends = ends_of(pose_[at(links_.end_i(link))], pose_[at(links_.end_j(link))]);
-  Real const elastic = solid::link_energy(links_.rest(link), ends);
-  return plastic_ ? elastic + plastic_->link_energy(link, ends) : elastic;
+Real Solid::plastic_extension(FaceTractions::Face const& face) const {
+  if (!plastic_) return 0;
+  Real const reach = 2 * mesh_.material(id(face.particle)).shear() * face.compliance;  // S d
+  return reach * dot(face.normal, plastic_->strain()[at(face.particle)] * face.normal);
 }
 
 void Solid::driving_stress(std::span<Symmetric> to, bool same_poses) {
   plastic_->driving_stress(pose_, pressure_, to, same_poses);
-  for (LoadedFace const& face : loaded_)
-    if (at(face.particle) < to.size()) to[at(face.particle)] = to[at(face.particle)] + face.pull * dyad(face.normal);
+  for (FaceTractions::Face const& face : face_tractions_.faces()) {
+    auto const p = at(face.particle);
+    Real const reach = 2 * mesh_.material(id(face.particle)).shear() * face.compliance;
+    if (p < to.size()) to[p] = to[p] + (reach * face.normal_traction()) * dyad(face.normal);
+  }
+}
+
+Vec3 Solid::spin_of(Index particle, Vec3 const& omega) const {
+  Quaternion const& q = pose_[at(particle)].q;
+  return rotate(q, symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].tensor) * rotate(conjugate(q), omega));
+}
+
+Vec3 Solid::omega_of(Index particle, Vec3 const& spin) const {
+  Quaternion const& q = pose_[at(particle)].q;
+  return rotate(q, symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].inverse) * rotate(conjugate(q), spin));
+}
+
+Index Solid::end_j(std::size_t link) const {
+  Index const entry = links_.end_j(link);
+  if (entry < count_) return entry;
+  for (Image const& image : images_)
+    if (image.entry == entry) return image.of;
+  return count_;
+}
+
+LinkEnds<double> Solid::link_ends(std::size_t link) const {
+  return ends_of(pose_[at(links_.end_i(link))], pose_[at(links_.end_j(link))]);
+}
+
+LinkWrench<double> Solid::wrench_of(std::size_t link) const {
+  LinkEnds<double> const ends = link_ends(link);
+  LinkWrench<double> w =
+      link_wrench(links_.rest(link), ends, pressure_[at(links_.end_i(link))], pressure_[at(links_.end_j(link))]);
+  auto const add = [&w](LinkWrench<double> const& other) {
+    w.force = w.force + other.force;
+    w.torque_i = w.torque_i + other.torque_i;
+    w.torque_j = w.torque_j + other.torque_j;
+  };
+  if (consistent_) add(consistent_->wrench(link, ends));
+  if (plastic_) add(plastic_->wrench(link, ends));
+  return w;
+}
+
+Real Solid::link_energy(std::size_t link) const {
+  Real const share = mesh_.is_mirror(mesh_.links[mesh_link_[link]]) ? 0.5 : 1;
+  LinkEnds<double> const ends = link_ends(link);
+  Real const elastic = solid::link_energy(links_.rest(link), ends);
+  return share * (plastic_ ? elastic + plastic_->link_energy(link, ends) : elastic);
 }
 
 Reactions Solid::take_reactions() {

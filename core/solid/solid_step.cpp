@@ -57,6 +57,7 @@ struct Freedoms {
 
 template <bool with_kick, bool with_drift>
 void Solid::advance(Real dt) {
+  if constexpr (with_kick) book_reactions(0.5 * dt);  // at the poses of the forces, before any drift
   Freedoms const freedoms(dimension_);
   Vec3 const g = gravity_.value_or(Vec3{});
   Lanes const fall = four_values(0.5 * dt * g.x, 0.5 * dt * g.y, 0.5 * dt * g.z, 0.0);
@@ -121,7 +122,8 @@ void Solid::advance(Real dt) {
       }
     }
   }
-  if constexpr (with_kick) book_reactions(0.5 * dt);
+  if constexpr (with_drift)
+    for (Wall const& wall : walls_) pose_[static_cast<std::size_t>(wall.entry)] = wall.to;
 }
 
 void Solid::half_kick(Real dt) { advance<true, false>(dt); }
@@ -137,24 +139,44 @@ void Solid::step(Real dt) {
 
 void Solid::book_reactions(Real dt) {
   // Between the kicks of a step the supports balance the forces of their instant; gravity acts on free particles only.
+  // Their work is done on the way of the step, so by its half velocities: then quadratic energies balance exactly.
   for (Index l : held_) {
     auto const p = static_cast<std::size_t>(l);
     Vec3 const force = -(wrench_[p].force + load_[p].force), torque = -(wrench_[p].torque + load_[p].torque);
-    reactions_.add(dt, force, torque + cross(pose_[p].x, force), motion_[p].v);
+    reactions_.add(dt, force, torque + cross(pose_[p].x, force), dot(force, half_[p].v) + dot(torque, half_[p].omega));
   }
   for (std::size_t c : clamps_) {
     auto const p = static_cast<std::size_t>(links_.end_i(c));
-    LinkEnds<double> const ends = ends_of(pose_[p], pose_.back());
-    LinkWrench<double> w = link_wrench(links_.rest(c), ends, pressure_[p], 0.0);
-    auto const add = [&w](LinkWrench<double> const& other) {
-      w.force = w.force + other.force;
-      w.torque_i = w.torque_i + other.torque_i;
-    };
-    if (consistent_) add(consistent_->wrench(c, ends));
-    if (plastic_) add(plastic_->wrench(c, ends));
+    LinkWrench<double> const w = wrench_of(c);
     Vec3 const force{w.force.x, w.force.y, w.force.z}, torque{w.torque_i.x, w.torque_i.y, w.torque_i.z};
-    reactions_.add(dt, force, torque + cross(pose_[p].x, force), {});
+    Real power = 0;
+    for (Wall const& wall : walls_)
+      if (wall.entry == links_.end_j(c))
+        power = dot(force, wall.v) + dot(Vec3{w.torque_j.x, w.torque_j.y, w.torque_j.z}, wall.omega);
+    reactions_.add(dt, force, torque + cross(pose_[p].x, force), power);
   }
+}
+
+void Solid::drive_walls(Index motion, WallStep const& step) {
+  for (Wall& wall : walls_) {
+    if (wall.motion != motion) continue;
+    pose_[static_cast<std::size_t>(wall.entry)] = step.from;
+    wall.to = step.to;
+    wall.v = step.v;
+    wall.omega = step.omega;
+  }
+}
+
+void Solid::drive(Index particle, Vec3 const& v, Vec3 const& spin, HalfVelocity const& half) {
+  auto const p = static_cast<std::size_t>(particle);
+  Motion& m = motion_[p];
+  Vec3 const impulse = mesh_.particle(id(particle)).mass * (v - m.v), turn = spin - m.spin;
+  // Kinetic energies are quadratic: the change is the impulse times the mean velocity.
+  Real const work = 0.5 * (dot(impulse, v + m.v) + dot(turn, omega_of(particle, spin + m.spin)));
+  reactions_.add(1, impulse, turn + cross(pose_[p].x, impulse), work);
+  m.v = v;
+  m.spin = spin;
+  half_[p] = half;
 }
 
 }  // namespace brisance::solid

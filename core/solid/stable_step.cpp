@@ -27,14 +27,14 @@ struct End {
   FaceGeometry const* face;
   Vec3 arm, normal;
   Real weight;
-  GlobalId other;  ///< Link::wall at a wall
+  GlobalId other;  ///< whose strain the link enters: at a mirror the particle itself, Link::wall at a wall
 };
 
 End end_of(Mesh const& mesh, Link const& link, GlobalId p) {
   FaceGeometry const& face = mesh.face(link.i, link.face_i);
-  if (link.i == p) return {&face, face.centroid, face.normal, link.weight, link.j};
-  return {&face, mesh.particle(link.i).centre + face.centroid - mesh.particle(p).centre, -face.normal, 1 - link.weight,
-          link.i};
+  if (link.i == p) return {&face, face.centroid, face.normal, link.weight, mesh.is_mirror(link) ? p : link.j};
+  return {&face, mesh.particle(link.i).centre + face.centroid - mesh.shift(link) - mesh.particle(p).centre,
+          -face.normal, 1 - link.weight, link.i};
 }
 
 Vector6 generalized_normal(End const& e) {
@@ -43,15 +43,35 @@ Vector6 generalized_normal(End const& e) {
   return g;
 }
 
+/// B = [1  -[arm]x]: displacement of a point by (u, theta).
+Eigen::Matrix<double, 3, 6> moved_by(Vec3 const& arm) {
+  Eigen::Matrix<double, 3, 6> b = Eigen::Matrix<double, 3, 6>::Zero();
+  b.leftCols<3>().setIdentity();
+  for (int c = 0; c < 3; ++c) {
+    Vec3 axis{};
+    axis[c] = 1;
+    b.col(3 + c) = eigen(cross(axis, arm));
+  }
+  return b;
+}
+
+/// Of a boundary face from the pole, m.
+Real distance(Mesh const& mesh, GlobalId p, FaceGeometry const& face) {
+  return dot(face.centroid - mesh.shape(p).pole, face.normal);
+}
+
 /// How the strain of a particle depends on the others and on itself: A_J / V~_J and b_J.
 struct StrainBound {
   Real ratio = 0;  ///< sum of w^2 S D over the effective volume, 1 (dimensionless)
   Vector6 own = Vector6::Zero();
   bool cancels = true;  ///< does its own displacement drop out of its strain?
+  Real volume = 0;      ///< effective volume, m3
 };
 
-StrainBound strain_bound(Mesh const& mesh, GlobalId p) {
+/// `held`: faces of `p` that count as clamped.
+StrainBound strain_bound(Mesh const& mesh, GlobalId p, std::vector<int> const& held) {
   StrainBound bound;
+  bound.volume = mesh.particle(p).effective_volume;
   Real scale = 0, size = 0;
   for (std::size_t l : mesh.links_of(p)) {
     Link const& link = mesh.links[l];
@@ -61,7 +81,14 @@ StrainBound strain_bound(Mesh const& mesh, GlobalId p) {
     scale += e.weight * e.face->area;
     size = max(size, norm(e.arm));
   }
-  bound.ratio /= mesh.particle(p).effective_volume;
+  for (int const f : held) {
+    FaceGeometry const& face = mesh.face(p, f);
+    bound.own += face.area * generalized_normal({&face, face.centroid, face.normal, 1, Link::wall});
+    bound.volume -= mesh.material(p).free_ratio() * face.area * distance(mesh, p, face);
+    scale += face.area;
+    size = max(size, norm(face.centroid));
+  }
+  bound.ratio /= bound.volume;
   bound.cancels = bound.own.head<3>().norm() <= 1e-9 * scale && bound.own.tail<3>().norm() <= 1e-9 * scale * size;
   return bound;
 }
@@ -155,7 +182,12 @@ std::vector<double> Solid::link_limits() const {
   std::vector<int> const moving = freedoms(dimension_);
   std::vector<StrainBound> bound(at(count_));
   // Second-layer ghosts are not complete here, but the replicated mesh is.
-  for (Index l = 0; l < count_; ++l) bound[at(l)] = strain_bound(mesh_, id(l));
+  auto const held = [&](Index l) {
+    std::vector<int> faces;
+    for (auto [f, last] = held_faces_.equal_range(l); f != last; ++f) faces.push_back(f->second);
+    return faces;
+  };
+  for (Index l = 0; l < count_; ++l) bound[at(l)] = strain_bound(mesh_, id(l), held(l));
   Matrix6s const consistent = consistent_ ? consistent_bound(*this, moving) : Matrix6s{};
   std::vector<double> limits(at(owned_), 1e300);
   for (Index l = 0; l < owned_; ++l) {
@@ -166,13 +198,7 @@ std::vector<double> Solid::link_limits() const {
       Link const& link = mesh_.links[index];
       End const e = end_of(mesh_, link, p);
       bool const wall = e.other == Link::wall;
-      Eigen::Matrix<double, 3, 6> b = Eigen::Matrix<double, 3, 6>::Zero();
-      b.leftCols<3>().setIdentity();
-      for (int c = 0; c < 3; ++c) {
-        Vec3 axis{};
-        axis[c] = 1;
-        b.col(3 + c) = eigen(cross(axis, e.arm));
-      }
+      Eigen::Matrix<double, 3, 6> const b = moved_by(e.arm);
       // |a - b|^2 <= 2 |a|^2 + 2 |b|^2 for two moving ends; a wall does not move.
       Real const shared = wall ? 1 : 2;
       k += shared * link.stiffness * b.transpose() * b;
@@ -183,12 +209,17 @@ std::vector<double> Solid::link_limits() const {
       Real const lame = max(mesh_.material(e.other).lame(), 0);
       k += lame * (of.cancels ? 1 : 2) * of.ratio * (e.face->area / link.rest_length) * g * g.transpose();
     }
+    for (int const f : held(l)) {
+      FaceGeometry const& face = mesh_.face(p, f);
+      Eigen::Matrix<double, 3, 6> const b = moved_by(face.centroid);
+      k += 2 * mesh_.material(p).shear() * face.area / distance(mesh_, p, face) * b.transpose() * b;
+    }
     StrainBound const& mine = bound[at(l)];
     Real const lame = max(mesh_.material(p).lame(), 0);
     if (consistent_)
       k += consistent[at(l)];
     else if (!mine.cancels)
-      k += 2 * lame / mesh_.particle(p).effective_volume * mine.own * mine.own.transpose();
+      k += 2 * lame / mine.volume * mine.own * mine.own.transpose();
     Eigen::MatrixXd const kept = k(moving, moving), mass = mass_of(mesh_, p)(moving, moving);
     Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> const solver(kept, mass,
                                                                            Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
@@ -197,8 +228,13 @@ std::vector<double> Solid::link_limits() const {
   return limits;
 }
 
-StableStep Solid::link_limit() const {
+std::span<double const> Solid::step_limits() const {
   if (link_limits_.empty()) link_limits_ = link_limits();
+  return link_limits_;
+}
+
+StableStep Solid::link_limit() const {
+  step_limits();
   StableStep best;
   for (Index l = 0; l < owned_; ++l)
     if (link_limits_[at(l)] < best.dt) best = {link_limits_[at(l)], id(l), false};

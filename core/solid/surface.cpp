@@ -33,7 +33,7 @@ class Groups {
 
 /// Joins the corners of two linked faces that lie at the same reference point.
 void join_corners(Mesh const& mesh, Link const& link, std::vector<std::size_t> const& first, Groups& groups) {
-  if (link.j == Link::wall) return;
+  if (link.j == Link::wall || link.far >= 0) return;
   Polyhedron const &a = mesh.shape(link.i).polyhedron, &b = mesh.shape(link.j).polyhedron;
   Vec3 const shift = mesh.particle(link.j).centre - mesh.particle(link.i).centre;
   Real const near = 1e-12 * mesh.face(link.i, link.face_i).area;  // square of a millionth of the face
@@ -139,7 +139,7 @@ Surface::Surface(Mesh const& mesh, std::vector<bool> const& broken, Surface cons
     corners_.insert(corners_.end(), of_vertex.begin(), of_vertex.end());
     first_.push_back(corners_.size());
   }
-  check_closed();
+  if (!mesh.has(FarSide::Kind::shifted)) check_closed();  // a periodic body is open where it goes on
   if (!before) return;
 
   origins_.resize(at(next));

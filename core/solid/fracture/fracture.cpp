@@ -33,7 +33,7 @@ Fracture::Fracture(FractureConfig const& config, Solid& solid, parallel::Comm& c
 LinkState Fracture::state_of(std::size_t k, Wants const& wants) const {
   GapBlock const& gap = solid_.gaps()[k / lanes];
   std::size_t const lane = k % lanes;
-  Index const i = solid_.link_store().end_i(k), j = solid_.link_store().end_j(k);
+  Index const i = solid_.link_store().end_i(k), j = solid_.end_j(k);
   bool const wall = j == solid_.count();
   Real const whole = 1 / solid_.intact(k);  // the gap was measured on what is left of the link
   LinkState s = link_state(sections_[k], whole * gap.opened[lane], gap.squared[lane], whole * gap.flexure[lane],
@@ -88,7 +88,7 @@ bool Fracture::judge(Real time) {
   LinkStore const& links = solid_.link_store();
   touched_.clear(), touched_link_.clear();
   for (Change const& change : changes_) {
-    Index const i = links.end_i(change.link), j = links.end_j(change.link);
+    Index const i = links.end_i(change.link), j = solid_.end_j(change.link);
     if (i < owned) touched_link_.push_back(change.link);
     for (Index const p : {i, j})
       if (p < owned) touched_.push_back(p);
@@ -160,7 +160,7 @@ void Fracture::damage_of_particles(std::span<double> to) const {
   std::vector<Real> linked(to.size(), 0);
   std::fill(to.begin(), to.end(), 0.0);
   for (std::size_t k = 0; k < solid_.links(); ++k)
-    for (Index const end : {solid_.link_store().end_i(k), solid_.link_store().end_j(k)}) {
+    for (Index const end : {solid_.link_store().end_i(k), solid_.end_j(k)}) {
       if (at(end) >= to.size()) continue;
       linked[at(end)] += sections_[k].area;
       to[at(end)] += (1 - solid_.intact(k)) * sections_[k].area;

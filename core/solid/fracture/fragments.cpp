@@ -33,7 +33,7 @@ void Fragments::find(Solid& solid, parallel::Comm& comm) {
   UnionFind sets(at(n));
   LinkStore const& links = solid.link_store();
   for (std::size_t k = 0; k < links.count(); ++k)
-    if (links.end_j(k) < n && solid.intact(k) > 0) sets.join(links.end_i(k), links.end_j(k));
+    if (Index const j = solid.end_j(k); j < n && solid.intact(k) > 0) sets.join(links.end_i(k), j);
   std::vector<GlobalId> smallest(at(n));  // of the set of a root
   for (Index p = 0; p < n; ++p) smallest[at(p)] = solid.id(p);
   for (Index p = 0; p < n; ++p) {

@@ -48,7 +48,7 @@ void require_room_to_soften(LawConfig const& law, Mesh const& mesh, Link const& 
 }
 
 Watch watch_of(Criterion const& criterion, Section const& s, Solid const& solid, std::size_t k, Real scatter) {
-  Index const i = solid.link_store().end_i(k), j = solid.link_store().end_j(k);
+  Index const i = solid.link_store().end_i(k), j = solid.end_j(k);
   Real const stiffness = s.modulus / s.length;
   Real const safe = std::visit([&](auto const& law) { return law.safe_traction(scatter, stiffness); }, criterion);
   return {i, j == solid.count() ? i : j, stiffness, 2 * stiffness / s.area, safe};

@@ -30,7 +30,7 @@ Real gap_speed(Solid const& solid, std::size_t k) {
   LinkEnds<double> const ends = solid.link_ends(k);
   LinkRest<double> const rest = solid.link_store().rest(k);
   auto const half = solid.half_velocity();
-  Index const i = solid.link_store().end_i(k), j = solid.link_store().end_j(k);
+  Index const i = solid.link_store().end_i(k), j = solid.end_j(k);
   auto const speed = [&](Index p, Turn<double> const& q, Triple<double> const& arm) {
     return half[at(p)].v + cross(half[at(p)].omega, rotate(quaternion(q), vector(arm)));
   };

@@ -106,12 +106,12 @@ bool ConsistentStrain::needed(Mesh const& mesh) {
 }
 
 ConsistentStrain::ConsistentStrain(Mesh const& mesh, LinkStore const& links, std::span<GlobalId const> ids,
-                                   std::span<std::size_t const> mesh_link, Exchange exchange)
+                                   std::span<std::size_t const> mesh_link, std::size_t entries, Exchange exchange)
     : links_(links),
       exchange_(std::move(exchange)),
       blocks_(links.records().size()),
-      gradient_(row * (ids.size() + 1)),
-      pull_(row * (ids.size() + 1)) {
+      gradient_(row * entries),
+      pull_(row * entries) {
   for (std::size_t k = 0; k < links.count(); ++k) {
     FaceOffset const of = face_offset(mesh, mesh.links[mesh_link[k]]);
     for (int d = 0; d < 3; ++d) {
@@ -141,7 +141,7 @@ void ConsistentStrain::move_volume(std::span<Pose const> pose, std::span<double>
   }
   times_inverse(gradient_);
   exchange_(std::span(gradient_).first(row * inverse_.size()), row);
-  std::fill(gradient_.end() - row, gradient_.end(), 0.0);
+  std::fill(gradient_.begin() + static_cast<std::ptrdiff_t>(row * inverse_.size()), gradient_.end(), 0.0);
   for (std::size_t n = 0; n < blocks_.size(); ++n) {
     LinkBlock const& b = links_.records()[n];
     Triple<Lanes> const move = sum_times(gradient_, row, b, {field(n, 3), field(n, 4), field(n, 5)});
@@ -164,7 +164,7 @@ void ConsistentStrain::take_pressure(std::span<double> pressure) {
     add_dyads(pull_, row, b, jump * read_rest(b).area, {field(n, 3), field(n, 4), field(n, 5)});
   }
   times_inverse(pull_);
-  std::fill(pull_.end() - row, pull_.end(), 0.0);
+  std::fill(pull_.begin() + static_cast<std::ptrdiff_t>(row * inverse_.size()), pull_.end(), 0.0);
 }
 
 void ConsistentStrain::add_wrench(std::span<Pose const> pose, std::span<Wrench> wrench) const {

@@ -24,10 +24,11 @@ Mat3 gradient_inverse(Mesh const& mesh, GlobalId p);
 /// (Cartesian) none of it. Links keep their coefficients: they may not be damaged.
 class ConsistentStrain {
  public:
-  /// Rows of `width` doubles per local particle, from owners to ghosts.
+  /// Rows of `width` doubles per local particle, from owners to ghosts. `entries` of the constructor: poses, the walls
+  /// among them.
   using Exchange = std::function<void(std::span<double> rows, std::size_t width)>;
   ConsistentStrain(Mesh const& mesh, LinkStore const& links, std::span<GlobalId const> ids,
-                   std::span<std::size_t const> mesh_link, Exchange exchange);
+                   std::span<std::size_t const> mesh_link, std::size_t entries, Exchange exchange);
   /// Has any face of the mesh an offset? The same on every rank.
   static bool needed(Mesh const& mesh);
 
@@ -55,7 +56,7 @@ class ConsistentStrain {
   Exchange exchange_;
   std::vector<Block> blocks_;
   std::vector<Mat3> inverse_;            // of local particles
-  std::vector<double> gradient_, pull_;  // H and dE/dH times the inverse; the wall has a row of zeros
+  std::vector<double> gradient_, pull_;  // H and dE/dH times the inverse; walls have rows of zeros
 };
 
 }  // namespace brisance::solid

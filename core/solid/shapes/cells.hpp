@@ -1,5 +1,7 @@
 // A body cut into convex cells with matching faces: what every tessellation returns.
 #pragma once
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,12 @@ struct Cells {
   std::vector<Vec3> centre;
   std::vector<std::size_t> first{0};
   std::vector<Index> neighbour;
+  // Of mesh files: names of physical groups.
+  std::vector<std::vector<std::string>> region_names;           ///< sets of names of physical volumes
+  std::vector<Index> region;                                    ///< of each cell, into region_names; may be empty
+  std::map<std::string, std::vector<std::size_t>> face_groups;  ///< name -> places in `neighbour`
+  Real whole_volume = 0;                                        ///< of the shape that the cells fill; 0: not known
+  bool checked = false;                                         ///< convex and closed to the precision of its file
 
   std::size_t count() const { return centre.size(); }
   /// Adds a cell with a shape of its own; `neighbours` may be empty (none known yet).
@@ -56,6 +64,7 @@ class Domain {
   virtual Vec3 low() const = 0;  ///< of a box around the body
   virtual Vec3 high() const = 0;
   virtual bool contains(Vec3 const& p) const = 0;
+  virtual Real volume() const = 0;
   virtual std::vector<Wall> walls() const = 0;
   /// Images of a generator in the curved pieces.
   virtual std::vector<Vec3> images(Vec3 const& p) const = 0;

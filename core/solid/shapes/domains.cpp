@@ -36,6 +36,27 @@ Vec3 BrickDomain::reach() const {
   return r;
 }
 
+PlaneDomain::PlaneDomain(std::vector<Wall> walls, std::span<Vec3 const> corners, Real volume)
+    : walls_(std::move(walls)), low_(corners[0]), high_(corners[0]), volume_(volume) {
+  for (Vec3 const& x : corners)
+    for (int d = 0; d < 3; ++d) low_[d] = min(low_[d], x[d]), high_[d] = max(high_[d], x[d]);
+}
+
+bool PlaneDomain::contains(Vec3 const& p) const {
+  for (Wall const& w : walls_)
+    if (dot(p - w.point, w.normal) >= 0) return false;
+  return true;
+}
+
+PlaneDomain inside_of(Polyhedron const& convex) {
+  std::vector<Domain::Wall> walls;
+  for (std::size_t f = 0; f < convex.faces.size(); ++f) {
+    FaceGeometry const g = face_geometry(convex, f);
+    walls.push_back({g.centroid, g.normal});
+  }
+  return {std::move(walls), convex.vertices, moments(convex).volume};
+}
+
 Vec3 TubeDomain::low() const {
   Vec3 r;
   for (int e = 0; e < 3; ++e) r[e] = outer_ + 0.5 * length_ * std::abs(frame_[2][e]);

@@ -1,4 +1,5 @@
 // From the words of a scene to cells: which tessellation fits which shape, and which dimensions it needs.
+#include "core/solid/meshes/mesh_body.hpp"
 #include "core/solid/shapes/cells.hpp"
 #include "core/solid/shapes/domains.hpp"
 #include "parallel/error.hpp"
@@ -78,8 +79,16 @@ Cells tessellate(BodyConfig const& body, int dimension) {
   bool const round =
       body.shape == "cylinder" || body.shape == "tube" || body.shape == "sphere" || body.shape == "shell";
   bool const polar = body.tessellation == "polar";
+  if (body.mesh.has_value() != (body.shape == "mesh"))
+    refuse(body, body.mesh ? "the key \"mesh\" belongs to shape = \"mesh\". Set the shape, or leave the key out."
+                           : "shape \"mesh\" needs the key \"mesh\", such as { file = \"part.msh\" }. Add it.");
   if (dimension == 1 && body.shape != "box") refuse(body, "only a box exists in one dimension.");
-  if (round && body.tessellation == "cartesian")
+  if (body.shape == "mesh") return cells_from_file(body, dimension);
+  std::string const tessellation = body.tessellation.value_or("cartesian");
+  if (tessellation == "elements" || tessellation == "tetrahedra")
+    refuse(body, "tessellation \"" + tessellation +
+                     "\" belongs to shape \"mesh\". Take \"cartesian\", \"polar\" or \"voronoi\".");
+  if (round && tessellation == "cartesian")
     refuse(body, "a " + body.shape + " cannot be cut into bricks. Take tessellation = \"polar\" or \"voronoi\".");
   if (round) return tessellate_round(body, dimension);
   if (polar) refuse(body, "a " + body.shape + " has no polar cells. Take \"cartesian\" or \"voronoi\".");
@@ -92,7 +101,11 @@ Cells tessellate(BodyConfig const& body, int dimension) {
       need(body, body.high, "high");
       low = *body.low, high = *body.high;
     }
-    return prism(body, low.z, high.z);
+    Cells one = prism(body, low.z, high.z);
+    if (body.tessellation != "voronoi") return one;
+    Polyhedron const whole = translated(one.shapes[0].polyhedron, one.centre[0]);
+    if (auto const f = fault(whole)) refuse(body, "Voronoi cells need a convex prism; it is " + f->what + ".");
+    return voronoi(inside_of(whole), body.particles, body.seed, body.lloyd, dimension);
   }
   if (body.shape == "plate") {
     if (dimension < 3) refuse(body, "a plate needs three dimensions. In 2D take a box.");

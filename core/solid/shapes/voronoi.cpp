@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 
 #include "core/solid/shapes/cells.hpp"
@@ -142,18 +143,73 @@ class Buckets {
   std::map<std::array<int, 3>, std::vector<std::size_t>> map_;
 };
 
-std::vector<Vec3> random_points(Domain const& domain, int count, std::int64_t seed, int dimension) {
+/// Points thrown so far, to be kept apart.
+class Spread {
+ public:
+  explicit Spread(Real width) : width_(width) {}
+  void add(Vec3 const& p) { map_[place(p)].push_back(p); }
+  /// Is a point closer than `distance` (at most the width)?
+  bool near(Vec3 const& p, Real distance) const {
+    auto const c = place(p);
+    for (int z = -1; z <= 1; ++z)
+      for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x) {
+          auto const found = map_.find({c[0] + x, c[1] + y, c[2] + z});
+          if (found == map_.end()) continue;
+          for (Vec3 const& q : found->second)
+            if (norm2(q - p) < square(distance)) return true;
+        }
+    return false;
+  }
+
+ private:
+  std::array<int, 3> place(Vec3 const& p) const {
+    return {static_cast<int>(std::floor(p.x / width_)), static_cast<int>(std::floor(p.y / width_)),
+            static_cast<int>(std::floor(p.z / width_))};
+  }
+  Real width_;
+  std::map<std::array<int, 3>, std::vector<Vec3>> map_;
+};
+
+/// Closest that two generators may be, in mean spacings: slivers between closer ones would set the time step.
+/// Source: theory/solid.md section 11.
+constexpr Real closest = 0.3;
+
+struct Generators {
+  std::vector<Vec3> points;
+  Real spacing = 0;  ///< (volume / number)^(1/dimension), m
+};
+
+/// Uniformly random points, none closer to another than `closest` spacings. Source: dart throwing.
+Generators random_points(Domain const& domain, int count, std::int64_t seed, int dimension) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   // Uniform doubles by hand: the distributions of the library differ between implementations.
   auto uniform = [&] { return static_cast<Real>(random() >> 11) * 0x1p-53; };
   Vec3 const low = domain.low(), size = domain.high() - low;
-  std::vector<Vec3> points;
-  while (static_cast<int>(points.size()) < count) {
+  Real measure = 1;
+  for (int d = 0; d < dimension; ++d) measure *= size[d];
+  auto next = [&] {
     Vec3 p{low.x + size.x * uniform(), low.y + size.y * uniform(), low.z + size.z * uniform()};
     for (int d = dimension; d < 3; ++d) p[d] = 0.5;
-    if (domain.contains(p)) points.push_back(p);
+    return p;
+  };
+  // The share of the box that the body fills, from the points that hit it.
+  std::int64_t inside = 0, thrown = 0;
+  for (; thrown < 1000 || inside < 100; ++thrown) inside += domain.contains(next());
+  Generators g;
+  g.spacing = std::pow(measure * static_cast<Real>(inside) / static_cast<Real>(thrown) / count, 1.0 / dimension);
+  Spread taken(g.spacing);
+  // Balls of 0.3 spacings fill an eighth of the space at most, so that a place is soon found; the limit is for bodies
+  // thinner than that.
+  for (int misses = 0; static_cast<int>(g.points.size()) < count;) {
+    Vec3 const p = next();
+    if (!domain.contains(p)) continue;
+    if (taken.near(p, closest * g.spacing) && ++misses < 1000) continue;
+    misses = 0;
+    taken.add(p);
+    g.points.push_back(p);
   }
-  return points;
+  return g;
 }
 
 std::vector<Cut> diagram(Domain const& domain, std::vector<Vec3> const& generators, Real spacing) {
@@ -162,6 +218,9 @@ std::vector<Cut> diagram(Domain const& domain, std::vector<Vec3> const& generato
     for (Vec3 const& image : domain.images(g)) points.push_back(image);
   Buckets const buckets(points, spacing);
   auto const walls = domain.walls();
+  auto const depth = [](Domain::Wall const& wall, Vec3 const& x) { return dot(wall.point - x, wall.normal); };
+  std::vector<std::size_t> order(walls.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
   Vec3 const margin{spacing, spacing, spacing};
   Vec3 const low = domain.low() - margin, high = domain.high() + margin;
   Real const slack = 1e-10 * spacing;
@@ -170,13 +229,22 @@ std::vector<Cut> diagram(Domain const& domain, std::vector<Vec3> const& generato
   for (std::size_t g = 0; g < generators.size(); ++g) {
     Vec3 const& x = generators[g];
     Cut cell(low, high);
-    for (auto const& wall : walls) cell.clip(wall.point, wall.normal, -1, slack);
+    // The nearest walls bound the search for neighbours; of a finely facetted surface, most lie out of reach of what
+    // the neighbours leave.
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return std::pair(depth(walls[a], x), a) < std::pair(depth(walls[b], x), b);
+    });
+    std::size_t const first_walls = std::min<std::size_t>(6, order.size());
+    auto clip_by = [&](std::size_t w) { cell.clip(walls[w].point, walls[w].normal, -1, slack); };
+    for (std::size_t k = 0; k < first_walls; ++k) clip_by(order[k]);
     for (int r = 0; r <= farthest && (r - 1) * spacing < 2 * cell.reach(x); ++r)
       buckets.ring(x, r, [&](std::size_t p) {
         if (p == g || norm2(points[p] - x) > 4 * square(cell.reach(x))) return;
         Index const behind = p < generators.size() ? static_cast<Index>(p) : -1;
         cell.clip(0.5 * (points[p] + x), normalized(points[p] - x), behind, slack);
       });
+    for (std::size_t k = first_walls; k < order.size() && depth(walls[order[k]], x) < cell.reach(x); ++k)
+      clip_by(order[k]);
     cells.push_back(std::move(cell));
   }
   return cells;
@@ -185,20 +253,20 @@ std::vector<Cut> diagram(Domain const& domain, std::vector<Vec3> const& generato
 }  // namespace
 
 Cells voronoi(Domain const& domain, int particles, std::int64_t seed, int lloyd, int dimension) {
-  std::vector<Vec3> generators = random_points(domain, particles, seed, dimension);
-  Vec3 const size = domain.high() - domain.low();
-  Real measure = 1;
-  for (int d = 0; d < dimension; ++d) measure *= size[d];
-  Real const spacing = std::pow(measure / particles, 1.0 / dimension);
+  auto [generators, spacing] = random_points(domain, particles, seed, dimension);
   std::vector<Cut> cuts = diagram(domain, generators, spacing);
   for (int sweep = 0; sweep < lloyd; ++sweep) {
     for (std::size_t g = 0; g < generators.size(); ++g) {
-      generators[g] = moments(cuts[g].shape).centre;
-      for (int d = dimension; d < 3; ++d) generators[g][d] = 0.5;
+      Vec3 to = moments(cuts[g].shape).centre;
+      for (int d = dimension; d < 3; ++d) to[d] = 0.5;
+      // Early cells reach over a curved boundary: a generator outside would be mirrored to the wrong side.
+      for (int halving = 0; halving < 4 && !domain.contains(to); ++halving) to = 0.5 * (to + generators[g]);
+      if (domain.contains(to)) generators[g] = to;
     }
     cuts = diagram(domain, generators, spacing);
   }
   Cells cells;
+  cells.whole_volume = domain.volume();
   for (std::size_t g = 0; g < generators.size(); ++g) cells.add(cuts[g].shape, cuts[g].tag, generators[g]);
   return cells;
 }
