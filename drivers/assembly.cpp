@@ -15,10 +15,10 @@ namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
   static std::vector<std::string> const names{
-      "fluid.euler",       "fluid.viscosity",     "fluid.gravity",   "solid.motion",       "solid.links",
-      "solid.gravity",     "solid.supports",      "solid.pressure",  "solid.traction",     "solid.blast",
-      "solid.point_force", "solid.moment_tensor", "solid.absorbing", "solid.contact",      "solid.damping",
-      "solid.fracture",    "coupling.cut_cells",  "output.gauges",   "output.solid_gauges"};
+      "fluid.euler",       "fluid.viscosity",     "fluid.gravity",      "solid.motion",     "solid.links",
+      "solid.gravity",     "solid.supports",      "solid.pressure",     "solid.traction",   "solid.blast",
+      "solid.point_force", "solid.moment_tensor", "solid.absorbing",    "solid.plasticity", "solid.contact",
+      "solid.damping",     "solid.fracture",      "coupling.cut_cells", "output.gauges",    "output.solid_gauges"};
   return names;
 }
 
@@ -221,7 +221,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     w.solid = std::make_unique<solid::Solid>(
         *w.mesh, *scene.solid, std::vector<int>(owner.begin() + blocks, owner.end()), comm, w.dimension,
         coupled ? w.surface.get() : nullptr,
-        scene.solid->fracture ? solid::Solid::Opens::anywhere : solid::Solid::Opens::never);
+        scene.solid->breaks() ? solid::Solid::Opens::anywhere : solid::Solid::Opens::never);
   if (scene.fluid && scene.fluid->euler) w.euler = std::make_unique<fluid::Euler>(*scene.fluid->euler, *w.flow);
   if (scene.fluid && scene.fluid->viscosity) w.viscosity = std::make_unique<fluid::Viscosity>(*scene.fluid, *w.flow);
   if (scene.fluid && scene.fluid->gravity) w.gravity = std::make_unique<fluid::Gravity>(*scene.fluid->gravity, *w.flow);

@@ -185,7 +185,8 @@ void write_summary(World& world, RunState const& run, std::string const& directo
 }
 
 std::string history_header() {
-  return "step,time,dt,limited_by,mass,energy,energy_fluid,energy_kinetic,energy_elastic,energy_dissipated,defect_mass,"
+  return "step,time,dt,limited_by,mass,energy,energy_fluid,energy_kinetic,energy_elastic,energy_stored,energy_"
+         "dissipated,defect_mass,"
          "defect_momentum_x,"
          "defect_momentum_y,defect_momentum_z,defect_exchange_energy,defect_energy,links_broken\n";
 }
@@ -195,12 +196,13 @@ std::string history_row(World const& world) {
   Ledger const& l = s.ledger();
   Conservation const& c = l.conservation();
   return fmt::format(
-      "{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g},"
+      "{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g}"
+      ",{:.3g},"
       "{}\n",
       s.clock().step, s.clock().time, s.clock().dt, s.limited_by(), l.total(Entry::mass), l.total(Entry::energy),
       l.total(Entry::fluid_energy), l.total(Entry::solid_kinetic), l.total(Entry::solid_elastic),
-      l.received(Entry::dissipated), c.mass, c.momentum.x, c.momentum.y, c.momentum.z, c.exchange_energy,
-      c.energy_final, static_cast<std::int64_t>(l.received(Entry::links_broken)));
+      l.total(Entry::solid_stored), l.received(Entry::dissipated), c.mass, c.momentum.x, c.momentum.y, c.momentum.z,
+      c.exchange_energy, c.energy_final, static_cast<std::int64_t>(l.received(Entry::links_broken)));
 }
 
 }  // namespace brisance::drivers

@@ -26,6 +26,8 @@ brisance_same_digest(double-mach ${PROJECT_SOURCE_DIR}/tests/support/scenes/doub
 brisance_same_digest(viscous-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-box.toml 40)
 brisance_same_digest(viscous-bodies ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-bodies.toml 60)
 brisance_same_digest(solid-only ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 60)
+brisance_same_digest(ductile ${PROJECT_SOURCE_DIR}/tests/support/scenes/ductile.toml 80)
+brisance_same_digest(consistent ${PROJECT_SOURCE_DIR}/tests/support/scenes/consistent.toml 80)
 brisance_same_digest(bursting-wheel ${scenes}/bursting-wheel.toml 80 --set solid.body.0.particles=300)
 brisance_same_digest(break-up ${PROJECT_SOURCE_DIR}/tests/support/scenes/break-up.toml 44)
 brisance_same_digest(rods-and-plates ${PROJECT_SOURCE_DIR}/tests/support/scenes/rods-and-plates.toml 120)
@@ -102,6 +104,11 @@ brisance_expect(scene_contact_in_a_gas CODE 2 LABELS unit ABSENT ${runs}/contact
 
 brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)
+
+brisance_expect(scene_consistent_breaks CODE 2 LABELS unit ABSENT ${runs}/consistent-breaks
+                MESSAGE "ductile.toml:[0-9]+:[0-9]+: .*volumetric = .consistent. needs links that stay whole"
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/ductile.toml --out ${runs}/consistent-breaks
+                        --set "solid.links.volumetric=\"consistent\"")
 
 # Truncated checkpoints and a full disk.
 add_test(NAME truncated_checkpoint COMMAND ${PROJECT_SOURCE_DIR}/tests/support/truncated_checkpoint.sh ${program}

@@ -1,6 +1,8 @@
 brisance_test(solid_unit
   SOURCES unit/core/solid/polyhedron_test.cpp unit/core/solid/shapes_test.cpp unit/core/solid/mesh_test.cpp
           unit/core/solid/link_law_test.cpp unit/core/solid/surface_test.cpp unit/core/solid/solid_test.cpp
+          unit/core/solid/plasticity_test.cpp
+          unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
           unit/core/solid/contact_test.cpp unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
           unit/core/solid/fracture/link_laws_test.cpp unit/core/solid/fracture/fragments_test.cpp
   LINKS brisance::solid LABELS unit)
@@ -21,6 +23,10 @@ brisance_test(solid_stable_step SOURCES verification/solid/stable_step_test.cpp 
 brisance_test(solid_parallel SOURCES parallel/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
 brisance_test(solid_fracture_parallel SOURCES parallel/fracture_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
 brisance_test(solid_restart SOURCES restart/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS restart)
+brisance_test(solid_plasticity SOURCES verification/solid/plasticity_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_consistent SOURCES verification/solid/consistent_test.cpp LINKS brisance::solid Eigen3::Eigen
+  LABELS verification)
+brisance_test(solid_two_materials SOURCES verification/solid/two_materials_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_fracture SOURCES verification/solid/fracture_test.cpp verification/solid/fracture_account_test.cpp
   LINKS brisance::solid LABELS verification)
 brisance_test(solid_supports SOURCES verification/solid/supports_test.cpp LINKS brisance::solid LABELS verification)

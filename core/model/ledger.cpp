@@ -18,7 +18,7 @@ void Ledger::audit(parallel::Comm& comm) {
   for (std::size_t e = 0; e < entry_count; ++e) {
     Real const value = sums_[e].value();
     sums_[e] = {};
-    if (e <= at(Entry::solid_elastic))
+    if (e <= at(Entry::solid_stored))
       totals_[e] = value;
     else
       crossed_[e] += value;

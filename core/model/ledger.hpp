@@ -19,7 +19,8 @@ enum class Entry : std::size_t {
   momentum_size,  // total of the momentum's size over cells and particles
   fluid_energy,
   solid_kinetic,
-  solid_elastic,  // parts of the energy
+  solid_elastic,
+  solid_stored,  // parts of the energy; stored: by the hardening of metals
   in_mass,
   in_momentum_x,
   in_momentum_y,

@@ -1,5 +1,6 @@
 #include "core/solid/effects.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/errors.hpp"
@@ -9,6 +10,7 @@
 #include "core/solid/loads/absorbing_faces.hpp"
 #include "core/solid/loads/point_loads.hpp"
 #include "core/solid/loads/surface_loads.hpp"
+#include "core/solid/plasticity/plasticity.hpp"
 #include "core/solid/rows.hpp"
 #include "core/solid/supports/moving_supports.hpp"
 #include "parallel/archive.hpp"
@@ -90,19 +92,49 @@ void Dynamics::start() {
   solid_.compute_forces();
 }
 
+/// With consistent strains a break can raise the energy: the release of section 14 holds for the basic term alone.
+void refuse_damage(SolidConfig const& config, Location const& at, std::string const& what) {
+  require(
+      !config.links || config.links->volumetric == "basic", at,
+      what + " damages links, and solid.links.volumetric = \"consistent\" needs links that stay whole: use \"basic\".");
+}
+
+/// Images of particles carry neither plastic strain nor gradients, and absorbing faces solve for elastic particles with
+/// the basic strain.
+void refuse_partners(SolidConfig const& config, Mesh const& mesh, Location const& at, std::string const& what) {
+  require(config.absorbing.empty(), at,
+          what + " does not go with solid.absorbing yet: enlarge the body instead of absorbing waves at its faces.");
+  for (FarSide const& side : mesh.far_sides)
+    require(side.kind == FarSide::Kind::moving_wall, at,
+            what + " does not go with symmetry planes and periodic sides: model the whole body.");
+}
+
 std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm& comm) {
   std::vector<std::unique_ptr<Effect>> effects;
+  if (config.links && config.links->volumetric == "consistent")
+    refuse_partners(config, solid.mesh(), config.at, "solid.links.volumetric = \"consistent\"");
   if (!solid.mesh().motions.empty()) effects.push_back(std::make_unique<MovingSupports>(solid));
   if (!config.pressure.empty() || !config.traction.empty() || !config.blast.empty())
     effects.push_back(std::make_unique<SurfaceLoads>(config, solid));
   if (!config.point_force.empty() || !config.moment_tensor.empty())
     effects.push_back(std::make_unique<PointLoads>(config, solid));
   if (!config.absorbing.empty()) effects.push_back(std::make_unique<AbsorbingFaces>(config, solid));
+  auto const yields = [](auto const& material) { return material.second.plasticity.has_value(); };
+  if (std::any_of(config.material.begin(), config.material.end(), yields)) {
+    for (auto const& [name, material] : config.material) {
+      if (!material.plasticity) continue;
+      refuse_partners(config, solid.mesh(), material.plasticity->at, "solid.material." + name + ".plasticity");
+      if (material.plasticity->failure)
+        refuse_damage(config, material.plasticity->at, "solid.material." + name + ".plasticity.failure");
+    }
+    effects.push_back(std::make_unique<Plasticity>(config, solid, comm));
+  }
   if (config.contact) effects.push_back(std::make_unique<Contact>(config, solid, comm));
   if (config.damping) effects.push_back(std::make_unique<Damping>(*config.damping, config, solid, comm));
   if (config.fracture) {
     require(config.links.has_value(), config.fracture->at,
             "solid.fracture breaks links, and the scene has none: add links = {} to [solid]");
+    refuse_damage(config, config.fracture->at, "solid.fracture");
     effects.push_back(std::make_unique<Fracture>(*config.fracture, solid, comm));
   }
   return effects;

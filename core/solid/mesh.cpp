@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/base/errors.hpp"
+#include "core/solid/bonds.hpp"
 #include "core/solid/overlap.hpp"
 #include "core/solid/shapes/cells.hpp"
 #include "core/solid/space_curve.hpp"
@@ -287,6 +288,7 @@ void connect(Mesh& mesh, Draft const& draft, SolidConfig const& config, std::vec
   std::vector<std::size_t> draft_of(mesh.particles.size());
   for (std::size_t a = 0; a < number.size(); ++a) draft_of[static_cast<std::size_t>(number[a])] = a;
   mesh.first_free.assign(1, 0);
+  auto const bonds = find_bonds(config, draft.cells, draft.offset, mesh.dimension);
   for (GlobalId p = 0; p < mesh.size(); ++p) {
     std::size_t const a = draft_of[static_cast<std::size_t>(p)];
     auto const b = static_cast<std::size_t>(draft.body_of[a]);
@@ -309,6 +311,11 @@ void connect(Mesh& mesh, Draft const& draft, SolidConfig const& config, std::vec
         int const twin = wrapped ? static_cast<int>(f ^ 1U) : face_towards(cells, o, static_cast<Index>(c), place);
         if (twin < 0) continue;  // a sliver of a face that rounding left on one side only
         mesh.links.push_back(series_link(mesh, p, face, q, twin, shift, wrapped ? supports.shifted(shift) : -1));
+        continue;
+      }
+      if (auto const bond = bonds.find({a, face}); bond != bonds.end()) {
+        GlobalId const q = number[bond->second.cell];
+        if (q > p) mesh.links.push_back(series_link(mesh, p, face, q, bond->second.face, {}, -1));
         continue;
       }
       FreeFace free{p, face, dot(s.faces[f].centroid - s.pole, s.faces[f].normal), false};

@@ -34,6 +34,10 @@ Solid::Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner
   choose_particles(surface, opens);
   store_particles();
   store_links();
+  if (volumetric_ && config.links && config.links->volumetric == "consistent" && ConsistentStrain::needed(mesh))
+    consistent_ =
+        std::make_unique<ConsistentStrain>(mesh, links_, ids_, mesh_link_, pose_.size(),
+                                           [this](std::span<double> rows, auto width) { exchange_rows(rows, width); });
   compute_forces();
 }
 
@@ -229,7 +233,10 @@ void Solid::compute_strains() {
   for (Image const& image : images_)  // what links to images shifted from j open belongs to j
     if (mesh_.far_sides[at(image.far)].kind == FarSide::Kind::shifted)
       opened_[at(image.of)] += opened_[at(image.entry)];
+  if (consistent_) consistent_->move_volume(pose_, opened_);
+  if (plastic_) plastic_->add_opened_volume(opened_);
   for (std::size_t p = 0; p < n; ++p) pressure_[p] = bulk_[p] * opened_[p];
+  if (consistent_) consistent_->take_pressure(pressure_);
   for (Image const& image : images_) pressure_[at(image.entry)] = pressure_[at(image.of)];
 }
 
@@ -240,6 +247,8 @@ void Solid::compute_forces() {
     links_.add_wrench(pose_, pressure_, wrench_, gaps_);
   else
     links_.add_wrench(pose_, pressure_, wrench_);
+  if (consistent_) consistent_->add_wrench(pose_, wrench_);
+  if (plastic_) plastic_->add_wrench(pose_, wrench_, gaps_);
   for (Image const& image : images_)
     if (mesh_.far_sides[at(image.far)].kind == FarSide::Kind::shifted) {
       wrench_[at(image.of)].force += wrench_[at(image.entry)].force;

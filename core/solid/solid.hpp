@@ -9,10 +9,12 @@
 
 #include "core/solid/face_tractions.hpp"
 #include "core/solid/halo.hpp"
+#include "core/solid/links/consistent_strain.hpp"
 #include "core/solid/links/link_store.hpp"
 #include "core/solid/measures.hpp"
 #include "core/solid/mesh.hpp"
 #include "core/solid/particles.hpp"
+#include "core/solid/plasticity/plastic_strain.hpp"
 #include "core/solid/solid_config.hpp"
 #include "parallel/comm.hpp"
 
@@ -76,7 +78,7 @@ class Solid {
   void exchange_pose() { start_exchange(), finish_exchange(); }
   void start_exchange();
   void finish_exchange();
-  /// Internal forces and torques of owned particles at the current poses.
+  /// Internal forces and torques of owned particles at the current poses. Collective with consistent strains.
   void compute_forces();
   /// The first part of compute_forces: images, opened volumes and strain pressures at the current poses.
   void compute_strains();
@@ -107,6 +109,15 @@ class Solid {
   std::span<Wrench> internal() { return std::span(wrench_).first(static_cast<std::size_t>(count_)); }
   /// Rows of `width` doubles per particle (count() rows), from owners to ghosts. Collective among neighbours.
   void exchange_rows(std::span<double> rows, std::size_t width) { halo_.exchange_rows(comm_, rows, width); }
+
+  /// Makes room for plastic strain; without it links are elastic. Source: theory/solid.md section 16.
+  void allow_plasticity() { plastic_ = std::make_unique<PlasticStrain>(mesh_, links_, ids_, mesh_link_); }
+  PlasticStrain& plastic() { return *plastic_; }  ///< Expects: allow_plasticity.
+  /// V times the stress that drives the plastic strain of the first particles, J, at the last compute_strains and the
+  /// present plastic strain. `same_poses`: as at the last call.  Expects: allow_plasticity.
+  void driving_stress(std::span<Symmetric> to, bool same_poses = false);
+  /// S d n.e n: the part of plastic strain in the extension of a loaded face, m3.
+  Real plastic_extension(FaceTractions::Face const& face) const;
 
   /// The motion of a wall in a step: its place and turn at the start and at the end, and the velocities between them.
   struct WallStep {
@@ -171,7 +182,7 @@ class Solid {
     std::vector<Motion> motion;
     std::vector<HalfVelocity> half;
     std::vector<Wrench> wrench, load;
-    std::vector<double> opened, pressure, intact;
+    std::vector<double> opened, pressure, intact, consistent;
     Reactions reactions;
   };
   enum class Restore { state, state_and_load };
@@ -273,7 +284,9 @@ class Solid {
   std::size_t broken_ = 0;
   std::vector<GapBlock> gaps_;  // empty without damage
   std::uint64_t breaks_ = 0;
-  bool volumetric_ = false;  // some lambda is not zero
+  bool volumetric_ = false;                       // some lambda is not zero
+  std::unique_ptr<PlasticStrain> plastic_;        // null: elastic
+  std::unique_ptr<ConsistentStrain> consistent_;  // null: basic volumetric term
   FaceTractions face_tractions_;
   std::multimap<Index, int> held_faces_;
   Reactions reactions_;

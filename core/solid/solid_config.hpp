@@ -8,11 +8,13 @@
 
 #include "core/base/location.hpp"
 #include "core/base/vec3.hpp"
+#include "core/solid/bonds.hpp"
 #include "core/solid/contact/contact_config.hpp"
 #include "core/solid/damping/damping_config.hpp"
 #include "core/solid/fracture/fracture_config.hpp"
 #include "core/solid/loads/load_config.hpp"
 #include "core/solid/meshes/mesh_file_config.hpp"
+#include "core/solid/plasticity/plasticity_config.hpp"
 #include "core/solid/supports/support_config.hpp"
 
 namespace brisance {
@@ -26,12 +28,14 @@ namespace brisance::solid {
 struct MaterialConfig {
   Real density = 0, young_modulus = 0, poisson_ratio = 0;
   Location at;
+  std::optional<PlasticityConfig> plasticity{};
   static void keys(Keys<MaterialConfig>& k);
 };
 
 /// Elastic links between the particles of a body; absent = free rigid particles.
 struct LinksConfig {
-  Real torsion_ratio = 1;  ///< kappa of theory/solid.md section 8
+  Real torsion_ratio = 1;            ///< kappa of theory/solid.md section 8
+  std::string volumetric = "basic";  ///< or "consistent", theory/solid.md section 9
   static void keys(Keys<LinksConfig>& k);
 };
 
@@ -73,10 +77,12 @@ struct BodyConfig {
 struct SolidConfig {
   std::map<std::string, MaterialConfig> material;
   std::vector<BodyConfig> body;
+  std::vector<BondConfig> bond;
   std::optional<LinksConfig> links;
   MotionConfig motion;
   std::optional<Vec3> gravity;  ///< m/s2
   std::optional<FractureConfig> fracture;
+  bool breaks() const;  ///< may links break?
   std::optional<DampingConfig> damping;
   std::vector<PressureConfig> pressure;
   std::vector<TractionConfig> traction;

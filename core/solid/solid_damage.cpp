@@ -46,6 +46,7 @@ void Solid::weaken(std::size_t link, Real intact) {
   rest.area = intact * rest.area;
   for (double& c : rest.bending) c *= intact;
   links_.set_rest(link, rest);
+  if (plastic_) plastic_->free_share(link, 1 - intact);
   set_bulk(of.i);
   if (of.j != Link::wall) set_bulk(of.j);
 }

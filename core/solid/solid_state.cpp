@@ -29,6 +29,7 @@ void Solid::save(Saved& to) const {
   to.opened = opened_;
   to.pressure = pressure_;
   to.intact = intact_;
+  if (consistent_) to.consistent = consistent_->pull();
   to.reactions = reactions_;
 }
 
@@ -40,6 +41,7 @@ void Solid::restore(Saved const& from, Restore what) {
   opened_ = from.opened;
   pressure_ = from.pressure;
   reactions_ = from.reactions;
+  if (consistent_) consistent_->set_pull(from.consistent);
   for (std::size_t k = 0; k < intact_.size(); ++k)
     if (intact_[k] != from.intact[k]) weaken(k, from.intact[k]);
   if (what == Restore::state_and_load) load_ = from.load;
@@ -50,7 +52,7 @@ std::size_t Solid::bytes() const {
          inertia_.size() * sizeof(Inertia) + owner_.size() * (sizeof(int) + sizeof(Index));
 }
 
-std::size_t Solid::link_bytes() const { return links_.bytes(); }
+std::size_t Solid::link_bytes() const { return links_.bytes() + (consistent_ ? consistent_->bytes() : 0); }
 
 Real Solid::kinetic_energy(Index particle) const {
   Motion const& m = motion_[at(particle)];
@@ -66,6 +68,7 @@ void Solid::measure(Measures& to) const {
     Vec3 const momentum = mass * m.v;
     to.add(Measures::kinetic, kinetic_energy(l));
     to.add(Measures::elastic, volumetric_energy(l));
+    if (plastic_) to.add(Measures::elastic, plastic_->slab_energy(l));
     to.add(Measures::mass, mass);
     to.add(Measures::momentum, momentum);
     to.add(Measures::angular, cross(pose_[at(l)].x, momentum) + m.spin);
@@ -78,8 +81,26 @@ void Solid::measure(Measures& to) const {
   for (std::size_t k = 0; k < links_.count(); ++k) {
     if (links_.end_i(k) < owned_) to.add(Measures::elastic, link_energy(k));
   }
-  for (FaceTractions::Face const& face : face_tractions_.faces())
-    if (face.particle < owned_) to.add(Measures::elastic, FaceTractions::energy(face));
+  for (FaceTractions::Face const& face : face_tractions_.faces()) {
+    if (face.particle >= owned_) continue;
+    to.add(Measures::elastic, FaceTractions::energy(face));
+    if (plastic_) to.add(Measures::elastic, -face.normal_traction() * plastic_extension(face));
+  }
+}
+
+Real Solid::plastic_extension(FaceTractions::Face const& face) const {
+  if (!plastic_) return 0;
+  Real const reach = 2 * mesh_.material(id(face.particle)).shear() * face.compliance;  // S d
+  return reach * dot(face.normal, plastic_->strain()[at(face.particle)] * face.normal);
+}
+
+void Solid::driving_stress(std::span<Symmetric> to, bool same_poses) {
+  plastic_->driving_stress(pose_, pressure_, to, same_poses);
+  for (FaceTractions::Face const& face : face_tractions_.faces()) {
+    auto const p = at(face.particle);
+    Real const reach = 2 * mesh_.material(id(face.particle)).shear() * face.compliance;
+    if (p < to.size()) to[p] = to[p] + (reach * face.normal_traction()) * dyad(face.normal);
+  }
 }
 
 Vec3 Solid::spin_of(Index particle, Vec3 const& omega) const {
@@ -123,13 +144,24 @@ LinkEnds<double> Solid::link_ends(std::size_t link) const {
 }
 
 LinkWrench<double> Solid::wrench_of(std::size_t link) const {
-  return link_wrench(links_.rest(link), link_ends(link), pressure_[at(links_.end_i(link))],
-                     pressure_[at(links_.end_j(link))]);
+  LinkEnds<double> const ends = link_ends(link);
+  LinkWrench<double> w =
+      link_wrench(links_.rest(link), ends, pressure_[at(links_.end_i(link))], pressure_[at(links_.end_j(link))]);
+  auto const add = [&w](LinkWrench<double> const& other) {
+    w.force = w.force + other.force;
+    w.torque_i = w.torque_i + other.torque_i;
+    w.torque_j = w.torque_j + other.torque_j;
+  };
+  if (consistent_) add(consistent_->wrench(link, ends));
+  if (plastic_) add(plastic_->wrench(link, ends));
+  return w;
 }
 
 Real Solid::link_energy(std::size_t link) const {
   Real const share = mesh_.is_mirror(mesh_.links[mesh_link_[link]]) ? 0.5 : 1;
-  return share * solid::link_energy(links_.rest(link), link_ends(link));
+  LinkEnds<double> const ends = link_ends(link);
+  Real const elastic = solid::link_energy(links_.rest(link), ends);
+  return share * (plastic_ ? elastic + plastic_->link_energy(link, ends) : elastic);
 }
 
 Reactions Solid::take_reactions() {

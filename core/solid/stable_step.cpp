@@ -2,6 +2,8 @@
 // Scalar Eigen: done once, and GCC 12 warns about its own AVX-512 header otherwise.
 #define EIGEN_DONT_VECTORIZE
 #include <Eigen/Dense>
+#include <algorithm>
+#include <map>
 
 #include "core/solid/solid.hpp"
 
@@ -98,6 +100,82 @@ std::vector<int> freedoms(int dimension) {
   return {0, 1, 2, 3, 4, 5};
 }
 
+using Matrix6s = std::vector<Matrix6>;
+
+Matrix6 mass_of(Mesh const& mesh, GlobalId p) {
+  Matrix6 m = Matrix6::Zero();
+  m.diagonal().head<3>().setConstant(mesh.particle(p).mass);
+  m.bottomRightCorner<3, 3>() = eigen(mesh.inertia(p));
+  return m;
+}
+
+/// Opened volume of particle J as a linear function of small motions of the particles around it, consistent option.
+std::map<GlobalId, Vector6> opening_of(Mesh const& mesh, GlobalId j) {
+  std::map<GlobalId, Vector6> g;
+  // t . gap of a link, the gap as the small motion of its ends.
+  auto const add_gap = [&](Link const& link, Vec3 const& t) {
+    Vec3 const place = mesh.particle(link.i).centre + mesh.face(link.i, link.face_i).centroid;
+    for (auto const& [end, sign] : {std::pair{link.i, -1.0}, std::pair{link.j, 1.0}}) {
+      if (end == Link::wall) continue;
+      Vec3 const turn = cross(place - mesh.particle(end).centre, t);
+      Vector6& of = g.try_emplace(end, Vector6::Zero()).first->second;
+      of.head<3>() += sign * eigen(t);
+      of.tail<3>() += sign * eigen(turn);
+    }
+  };
+  for (std::size_t const own : mesh.links_of(j)) {
+    Link const& link = mesh.links[own];
+    FaceGeometry const& face = mesh.face(link.i, link.face_i);
+    add_gap(link, (link.i == j ? link.weight : 1 - link.weight) * face.area * face.normal);
+    Vec3 const offset = face_offset(mesh, link).offset;
+    if (norm2(offset) == 0) continue;
+    Real const sign = link.i == j ? 0.5 : -0.5;
+    for (GlobalId const p : {link.i, link.j}) {
+      Vec3 const weight = gradient_inverse(mesh, p) * offset;
+      for (std::size_t const l : mesh.links_of(p))
+        add_gap(mesh.links[l], (sign * face.area * dot(face_offset(mesh, mesh.links[l]).pull, weight)) * face.normal);
+    }
+  }
+  return g;
+}
+
+/// Bound of the volumetric stiffness on the diagonal of the owned particles, consistent option. With the sizes
+/// s_K = |g_JK| in the metric of the masses, (sum of g_JK u_K)^2 <= sum of s_K sum of (g_JK u_K)^2 / s_K.
+Matrix6s consistent_bound(Solid const& solid, std::vector<int> const& moving) {
+  Mesh const& mesh = solid.mesh();
+  struct Part {
+    GlobalId from;
+    Matrix6 stiffness;
+  };
+  std::vector<std::vector<Part>> parts(at(solid.owned()));
+  for (Index l = 0; l < solid.count(); ++l) {
+    GlobalId const j = solid.id(l);
+    Real const lame = max(mesh.material(j).lame(), 0);
+    if (lame == 0) continue;
+    auto const g = opening_of(mesh, j);
+    std::map<GlobalId, Real> size;
+    Real sum = 0;
+    for (auto const& [k, of] : g) {
+      Eigen::MatrixXd const mass = mass_of(mesh, k)(moving, moving);
+      Eigen::VectorXd const kept = of(moving);
+      sum += size[k] = std::sqrt(kept.dot(mass.ldlt().solve(kept)));
+    }
+    for (auto const& [k, of] : g) {
+      Index const here = solid.local(k);
+      if (here < 0 || here >= solid.owned() || size[k] == 0) continue;
+      parts[at(here)].push_back({j, (lame / mesh.particle(j).effective_volume * sum / size[k]) * of * of.transpose()});
+    }
+  }
+  Matrix6s bound;
+  for (auto& list : parts) {  // in global order: the same bits on any number of ranks
+    std::sort(list.begin(), list.end(), [](Part const& a, Part const& b) { return a.from < b.from; });
+    Matrix6 total = Matrix6::Zero();
+    for (Part const& part : list) total += part.stiffness;
+    bound.push_back(total);
+  }
+  return bound;
+}
+
 }  // namespace
 
 std::vector<double> Solid::link_limits() const {
@@ -110,6 +188,7 @@ std::vector<double> Solid::link_limits() const {
     return faces;
   };
   for (Index l = 0; l < count_; ++l) bound[at(l)] = strain_bound(mesh_, id(l), held(l));
+  Matrix6s const consistent = consistent_ ? consistent_bound(*this, moving) : Matrix6s{};
   std::vector<double> limits(at(owned_), 1e300);
   for (Index l = 0; l < owned_; ++l) {
     GlobalId const p = id(l);
@@ -124,7 +203,7 @@ std::vector<double> Solid::link_limits() const {
       Real const shared = wall ? 1 : 2;
       k += shared * link.stiffness * b.transpose() * b;
       k.bottomRightCorner<3, 3>() += 0.5 * shared * eigen(bending_tensor(mesh_, link));
-      if (wall) continue;
+      if (wall || consistent_) continue;
       StrainBound const& of = bound[at(local(e.other))];
       Vector6 const g = generalized_normal(e);
       Real const lame = max(mesh_.material(e.other).lame(), 0);
@@ -137,11 +216,11 @@ std::vector<double> Solid::link_limits() const {
     }
     StrainBound const& mine = bound[at(l)];
     Real const lame = max(mesh_.material(p).lame(), 0);
-    if (!mine.cancels) k += 2 * lame / mine.volume * mine.own * mine.own.transpose();
-    Matrix6 m = Matrix6::Zero();
-    m.diagonal().head<3>().setConstant(mesh_.particle(p).mass);
-    m.bottomRightCorner<3, 3>() = eigen(mesh_.inertia(p));
-    Eigen::MatrixXd const kept = k(moving, moving), mass = m(moving, moving);
+    if (consistent_)
+      k += consistent[at(l)];
+    else if (!mine.cancels)
+      k += 2 * lame / mine.volume * mine.own * mine.own.transpose();
+    Eigen::MatrixXd const kept = k(moving, moving), mass = mass_of(mesh_, p)(moving, moving);
     Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> const solver(kept, mass,
                                                                            Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
     limits[at(l)] = 2 / std::sqrt(solver.eigenvalues().maxCoeff());

@@ -28,6 +28,7 @@ class LinkStore {
   Index end_i(std::size_t link) const { return blocks_[link / lanes].i[link % lanes]; }
   Index end_j(std::size_t link) const { return blocks_[link / lanes].j[link % lanes]; }
   LinkRest<double> rest(std::size_t link) const;
+  std::span<LinkBlock const> records() const { return blocks_; }
   void set_rest(std::size_t link, LinkRest<double> const& rest);
 
   /// Adds to `opened` of both ends the volume their links open, m3.

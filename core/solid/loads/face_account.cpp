@@ -35,7 +35,7 @@ void FaceAccount::before_change() {
     Real const pressure = solid_->pressure()[static_cast<std::size_t>(l.particle)];
     for (std::size_t k = l.first_face; k < l.last_face; ++k) {
       normal_[k - offset_] = faces[k].normal_traction();
-      extension_[k - offset_] = FaceTractions::extension(faces[k], pressure);
+      extension_[k - offset_] = FaceTractions::extension(faces[k], pressure) + solid_->plastic_extension(faces[k]);
     }
   }
 }
@@ -63,7 +63,9 @@ void FaceAccount::after_second_kick(Real dt, LoadAccount& account) {
     Real const pressure = solid_->pressure()[static_cast<std::size_t>(l.particle)];
     Real at_rest = 0;  // a changing t_n changes the energy of a face at fixed positions
     for (std::size_t k = l.first_face; k < l.last_face; ++k)
-      at_rest -= 0.5 * (extension_[k - offset_] + FaceTractions::extension(faces[k], pressure)) *
+      at_rest -= 0.5 *
+                 (extension_[k - offset_] + FaceTractions::extension(faces[k], pressure) +
+                  solid_->plastic_extension(faces[k])) *
                  (faces[k].normal_traction() - normal_[k - offset_]);
     account.add(dt, l.first, l.second, at_rest);
   }
