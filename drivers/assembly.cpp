@@ -254,6 +254,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (w.dynamics) w.dynamics->join(w.plan);
   for (auto const& effect : w.solid_effects) effect->join(w.plan);
   if (w.cut_cells) w.cut_cells->join(w.plan);
+  if (w.solid) solid::require_multirate_support(*scene.solid, w.plan);
   if (!scene.output.gauge.empty()) {
     w.gauges = std::make_unique<fluid::Gauges>(scene.output.gauge, *scene.fluid, *w.flow, fluid_volumes(w));
     w.gauges->join(w.plan);

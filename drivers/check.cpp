@@ -215,7 +215,10 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
                               {"density", c.density},
                               {"pressure", c.pressure}});
     if (!world->plan.remarks().empty()) j["remarks"] = world->plan.remarks();
-    if (scene.fluid) j["options"] = {{"fluid.sleep", world->flow->may_sleep()}};
+    if (scene.fluid) j["options"]["fluid.sleep"] = world->flow->may_sleep();
+    if (scene.solid) j["options"]["solid.sleep"] = world->solid->may_sleep();
+    if (world->solid && world->solid->levels())
+      j["multirate"] = {{"levels", world->solid->levels()->top + 1}, {"gain", world->solid->levels()->gain()}};
     for (solid::MeshQuality const& q : quality) j["meshes"].push_back(mesh_report(q, *world->mesh));
     if (!step_limit.text.empty())
       j["step_limit"] = {{"text", step_limit.text}, {"share_of_median", step_limit.share_of_median}};
@@ -231,11 +234,21 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
   fmt::print("{}: the scene is good\n\neffects\n", options.scene);
   for (std::string const& name : catalogue())
     fmt::print("  {:<24} {}\n", name, active(name) ? "on" : "off: " + why_off(name, scene));
+  fmt::print("\noptions\n");
   if (scene.fluid)
-    fmt::print("\noptions\n  {:<24} {}\n", "fluid.sleep",
+    fmt::print("  {:<24} {}\n", "fluid.sleep",
                world->flow->may_sleep() ? "on: uniform blocks are not swept; the predicted time counts all blocks"
                : scene.fluid->sleep     ? "off: products, viscosity or gravity act on all blocks"
                                         : "off: all blocks are swept");
+  if (scene.solid)
+    fmt::print("  {:<24} {}\n", "solid.sleep",
+               world->solid->may_sleep() ? "on: parts that nothing has reached yet are skipped"
+               : scene.solid->sleep
+                   ? "off: gravity, multi-rate steps, moving walls, symmetry or periodic faces act on particles at rest"
+                   : "off: all particles are stepped");
+  if (world->solid && world->solid->levels())
+    fmt::print("\nmulti-rate steps\n  {} levels, {:.2f} times fewer links computed than with one step for all\n",
+               world->solid->levels()->top + 1, world->solid->levels()->gain());
   fmt::print("\nstages\n");
   for (std::size_t s = 0; s < static_cast<std::size_t>(Stage::count); ++s) {
     auto const& tasks = world->plan.tasks(static_cast<Stage>(s));

@@ -90,7 +90,8 @@ void write_summary(World& world, RunState const& run, std::string const& directo
                            saved.block_sweeps,
                            saved.block_sweeps_skipped,
                            saved.cell_sweeps,
-                           saved.cell_sweeps_skipped};
+                           saved.cell_sweeps_skipped,
+                           world.dynamics ? world.dynamics->links_asleep() : 0};
   comm.sum(std::span(counts));
   parallel::Bytes bytes(mine.size() * sizeof(double));
   std::memcpy(bytes.data(), mine.data(), bytes.size());
@@ -162,6 +163,16 @@ void write_summary(World& world, RunState const& run, std::string const& directo
                     {"share", share},
                     {"gain", number_or_null(1 / (1 - share))}};
     }
+    if (world.solid && world.solid->may_sleep()) {
+      auto const all = static_cast<double>(counts[3] + counts[9]);
+      j["sleep"]["solid"] = {{"link_updates", counts[3]},
+                             {"link_updates_skipped", counts[9]},
+                             {"share", all > 0 ? static_cast<double>(counts[9]) / all : 0}};
+    }
+    if (world.solid && world.solid->levels())
+      j["multirate"] = {{"levels", world.solid->levels()->top + 1},
+                        {"link_updates_per_step", world.solid->levels()->link_updates()},
+                        {"gain", world.solid->levels()->gain()}};
     nlohmann::ordered_json effects;
     for (std::string const& name : catalogue()) {
       auto const& known = world.plan.effects();

@@ -40,6 +40,10 @@ brisance_same_digest(kinetic ${PROJECT_SOURCE_DIR}/tests/support/scenes/supports
 brisance_same_digest(loads ${PROJECT_SOURCE_DIR}/tests/support/scenes/loads.toml 60)
 brisance_same_digest(blast-plate ${scenes}/blast-plate.toml 80)
 brisance_same_digest(brick-wall ${scenes}/brick-wall.toml 200 --set output.interval=1 --set "solid.body.1.velocity=[60, 0, 0]")
+brisance_same_digest(struck-bar ${PROJECT_SOURCE_DIR}/tests/support/scenes/struck-bar.toml 40)
+brisance_same_digest(multirate ${PROJECT_SOURCE_DIR}/tests/support/scenes/graded-bar.toml 40)
+brisance_same_digest(sharp-step ${PROJECT_SOURCE_DIR}/tests/support/scenes/solid-only.toml 20
+                     --set "solid.motion.step=\"sharp\"")
 
 # brisance_same_gauges(name SCENE steps [options of run])
 function(brisance_same_gauges name scene steps)
@@ -74,6 +78,19 @@ brisance_expect(scene_wall_leaves_its_cell CODE 2 LABELS unit ABSENT ${runs}/wal
                 MESSAGE "sides.toml:[0-9]+:[0-9]+: fluid.boundary.y_low is a wall that moves by"
                 COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/sides.toml --out ${runs}/wall
                         --set end_time=20)
+brisance_expect(scene_multirate_with_cut_cells CODE 2 LABELS unit ABSENT ${runs}/multirate-cut
+                MESSAGE "solid.motion.multirate does not go together with coupling.cut_cells"
+                COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/multirate-cut
+                        --set solid.motion.multirate.levels=2)
+brisance_expect(scene_multirate_with_sharp_step CODE 2 LABELS unit ABSENT ${runs}/multirate-sharp
+                MESSAGE "solid.motion.multirate needs the limit of every particle"
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/graded-bar.toml --out ${runs}/multirate-sharp
+                        --set "solid.motion.step=\"sharp\"")
+brisance_expect(summary_solid_sleep CODE 0 LABELS unit MESSAGE "\"link_updates_skipped\": [1-9]"
+                COMMAND bash -c "$<TARGET_FILE:brisance> run ${PROJECT_SOURCE_DIR}/tests/support/scenes/struck-bar.toml \
+--out ${runs}/solid-sleep --steps 20 --quiet && cat ${runs}/solid-sleep/summary.json")
+brisance_expect(check_multirate CODE 0 LABELS unit MESSAGE "multi-rate steps.*4 levels, [12][.0-9]+ times fewer links"
+                COMMAND ${program} check ${PROJECT_SOURCE_DIR}/tests/support/scenes/graded-bar.toml)
 brisance_expect(scene_more_ranks_than_blocks CODE 2 RANKS 3 LABELS parallel ABSENT ${runs}/ranks
                 MESSAGE "explosion-cylinder.toml:[0-9]+:[0-9]+: 3 ranks, but the scene has only 2 fluid blocks"
                 COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/ranks --set fluid.block=300)

@@ -9,6 +9,7 @@ brisance_test(solid_unit
 brisance_test(solid_meshes
   SOURCES unit/core/solid/meshes/gmsh_test.cpp unit/core/solid/meshes/surface_test.cpp
           unit/core/solid/meshes/quality_test.cpp
+          unit/core/solid/sleep_test.cpp
   LINKS brisance::solid LABELS unit)
 brisance_test(solid_statics SOURCES verification/solid/statics_test.cpp LINKS brisance::solid LABELS verification)
 add_library(brisance_linear_solid STATIC support/linear_solid.cpp support/uniaxial.cpp)
@@ -20,6 +21,8 @@ endforeach()
 brisance_test(solid_rotation SOURCES verification/solid/rotation_test.cpp LINKS brisance::solid Eigen3::Eigen
   LABELS verification)
 brisance_test(solid_stable_step SOURCES verification/solid/stable_step_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_energy SOURCES verification/solid/energy_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_multirate SOURCES verification/solid/multirate_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_parallel SOURCES parallel/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
 brisance_test(solid_fracture_parallel SOURCES parallel/fracture_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)
 brisance_test(solid_restart SOURCES restart/solid_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS restart)

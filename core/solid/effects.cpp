@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "core/base/errors.hpp"
 #include "core/solid/contact/contact.hpp"
@@ -29,16 +30,16 @@ void Dynamics::join(Plan& plan) {
            (sizeof(Pose) + sizeof(Motion) + sizeof(HalfVelocity) + 2 * sizeof(Wrench) + sizeof(Inertia));
   });
   plan.at(Stage::kick, [this](Clock const& c) { solid_.half_kick(c.dt); });
-  plan.at(Stage::drift, [this](Clock const& c) {
-    solid_.drift(c.dt);
-    solid_.exchange_pose();
-  });
+  plan.at(Stage::drift, [this](Clock const& c) { solid_.move(c.dt); });
   plan.at(Stage::kick_again, [this](Clock const& c) {
     solid_.half_kick(c.dt);
     elapsed_ += c.dt;
   });
-  plan.limit("solid.motion",
-             [this](Clock const&) { return solid_.stable_limit().by_rotation ? solid_.stable_step() : 1e300; });
+  // One look at the particles serves both limits, which are asked in this order.
+  plan.limit("solid.motion", [this](Clock const&) {
+    limit_ = solid_.stable_limit();
+    return limit_.by_rotation ? limit_.dt : 1e300;
+  });
   plan.health([this](Clock const&) { return judge(); });
   plan.account([this](Ledger& ledger) { account(ledger); });
   auto saved = std::make_shared<Solid::Saved>();
@@ -77,10 +78,10 @@ void Dynamics::join(Plan& plan) {
     plan.effect("solid.links", [this] { return solid_.links() * (bytes_per_link + 2 * sizeof(Wrench)); });
     plan.at(Stage::forces, [this](Clock const&) {
       solid_.compute_forces();
-      link_updates_ += static_cast<std::int64_t>(solid_.links());
+      link_updates_ += solid_.link_updates();
+      if (solid_.may_sleep()) links_asleep_ += static_cast<std::int64_t>(solid_.links()) - solid_.link_updates();
     });
-    plan.limit("solid.links",
-               [this](Clock const&) { return solid_.stable_limit().by_rotation ? 1e300 : solid_.stable_step(); });
+    plan.limit("solid.links", [this](Clock const&) { return limit_.by_rotation ? 1e300 : limit_.dt; });
   } else {
     // Other effects add to the forces, which have to start from nothing.
     plan.at(Stage::forces, [this](Clock const&) { solid_.compute_forces(); });
@@ -140,11 +141,29 @@ std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Sol
   return effects;
 }
 
+void require_multirate_support(SolidConfig const& config, Plan const& plan) {
+  if (!config.motion.multirate) return;
+  Location const& at = config.motion.multirate->at;
+  if (!config.links) scene_error(at, "solid.motion.multirate needs solid.links: free particles all take one step");
+  if (config.motion.step != "guaranteed")
+    scene_error(at, "solid.motion.multirate needs the limit of every particle, solid.motion.step = \"" +
+                        config.motion.step + "\" knows only that of the whole solid: take \"guaranteed\"");
+  constexpr std::array<std::string_view, 3> supported{"solid.motion", "solid.links", "solid.gravity"};
+  for (Plan::EffectCost const& effect : plan.effects()) {
+    std::string_view const name = effect.name;
+    if (!name.starts_with("solid.") && !name.starts_with("coupling.")) continue;
+    if (std::find(supported.begin(), supported.end(), name) != supported.end()) continue;
+    scene_error(at, "solid.motion.multirate does not go together with " + effect.name +
+                        ", which acts on all particles at one step. Leave one of them out.");
+  }
+}
+
 Verdict Dynamics::judge() const {
+  Solid const& solid = solid_;  // who may write wakes the sleeping
   for (Index i = 0; i < solid_.owned(); ++i) {
     auto const at = static_cast<std::size_t>(i);
-    Vec3 const x = solid_.pose()[at].x;
-    Motion const& motion = solid_.motion()[at];
+    Vec3 const x = solid.pose()[at].x;
+    Motion const& motion = solid.motion()[at];
     if (std::isfinite(norm2(x) + norm2(motion.v) + norm2(motion.spin))) continue;
     Mesh const& mesh = solid_.mesh();
     GlobalId const id = solid_.id(i);

@@ -13,15 +13,21 @@ class Dynamics : public Effect {
   /// Collective. Ghost poses and internal forces of the initial state.
   void start() override;
   std::int64_t link_updates() const { return link_updates_; }
+  std::int64_t links_asleep() const { return links_asleep_; }  ///< those that sleep saved, on this rank
 
  private:
   void account(Ledger& ledger);
   Verdict judge() const;
   SolidConfig config_;
   Solid& solid_;
-  std::int64_t link_updates_ = 0;
+  std::int64_t link_updates_ = 0, links_asleep_ = 0;
+  StableStep limit_;
   Real elapsed_ = 0;  ///< s since the last account
 };
+
+/// Errors: Failure::scene when the plan has an effect of the solid, or a coupling, that cannot act within multi-rate
+/// steps. Call it when all effects have joined.
+void require_multirate_support(SolidConfig const& config, Plan const& plan);
 
 /// The other effects a scene lists, in the order of their tasks: one line each.
 std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm& comm);

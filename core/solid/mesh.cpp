@@ -1,6 +1,7 @@
 #include "core/solid/mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <map>
@@ -345,7 +346,26 @@ void add_initial_velocity(BodyConfig const& body, int dimension, Particle& p) {
   }
 }
 
+/// 2^-50 of the extent of all bodies: 51 bits hold every place, so that a difference of two is exact.
+void snap_centres(Mesh& mesh) {
+  Real extent = 0;
+  for (Particle const& p : mesh.particles) {
+    Real reach = 0;
+    for (Vec3 const& v : mesh.shapes[static_cast<std::size_t>(p.shape)].polyhedron.vertices)
+      reach = max(reach, norm(v));
+    for (int d = 0; d < 3; ++d) extent = max(extent, std::abs(p.centre[d]) + reach);
+  }
+  mesh.grain = std::ldexp(1.0, std::ilogb(extent) + 1 - 50);
+  for (Particle& p : mesh.particles) p.centre = on_grain(mesh, p.centre);
+}
+
 }  // namespace
+
+Vec3 on_grain(Mesh const& mesh, Vec3 const& v) {
+  Vec3 snapped;
+  for (int d = 0; d < 3; ++d) snapped[d] = mesh.grain * std::nearbyint(v[d] / mesh.grain) + 0.0;
+  return snapped;
+}
 
 bool is_side_of_slab(FaceGeometry const& face, int dimension) {
   for (int d = dimension; d < 3; ++d)
@@ -441,6 +461,7 @@ Mesh build_mesh(SolidConfig const& config, int dimension) {
       for (std::string const& name : *groups)
         require_face_group(mesh, name, body.at, "solid.body \"" + body.name + "\"");
   connect(mesh, draft, config, number, supports);
+  snap_centres(mesh);
 
   for (std::size_t b = 0; b < config.body.size(); ++b)
     mesh.bodies.push_back({config.body[b].name, 0, 0, {}, draft.cells[b].whole_volume});

@@ -115,6 +115,9 @@ struct Mesh {
   Real torsion_ratio = 1;
   std::vector<RigidMotion> motions;
   std::vector<FarSide> far_sides;
+  /// m. Mass centres are multiples of it, and so are the arms of links: differences of places are exact, the gap of an
+  /// undisturbed link is exactly zero.
+  Real grain = 0;
 
   GlobalId size() const { return static_cast<GlobalId>(particles.size()); }
   Particle const& particle(GlobalId p) const { return particles[static_cast<std::size_t>(p)]; }
@@ -159,6 +162,9 @@ void require_face_group(Mesh const& mesh, std::string const& name, Location cons
 
 /// Distance (m) of the face of a link from the pole of its particle `p`; D w of one material.
 Real face_distance(Mesh const& mesh, Link const& link, GlobalId p);
+
+/// The multiple of mesh.grain nearest to a place or an arm, never -0.
+Vec3 on_grain(Mesh const& mesh, Vec3 const& v);
 
 /// Does a face lie in the plane of a 2D run (or across a 1D one)? Such faces are neither linked nor free.
 bool is_side_of_slab(FaceGeometry const& face, int dimension);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/errors.hpp"
 #include "core/solid/surface.hpp"
 
 namespace brisance::solid {
@@ -38,7 +39,28 @@ Solid::Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner
     consistent_ =
         std::make_unique<ConsistentStrain>(mesh, links_, ids_, mesh_link_, pose_.size(),
                                            [this](std::span<double> rows, auto width) { exchange_rows(rows, width); });
+  everything_ = {0, owned_};
+  if (!mesh_.far_sides.empty() && (config.motion.multirate || config.motion.step == "sharp"))
+    scene_error(
+        config.motion.at,
+        "solid.motion: multirate and step = \"sharp\" do not know moving walls, symmetry and periodic faces yet. "
+        "Leave one of them out.");
+  bool const plastic = std::any_of(config.material.begin(), config.material.end(),
+                                   [](auto const& m) { return m.second.plasticity.has_value(); });
+  if ((consistent_ || plastic) && (config.motion.multirate || config.motion.step == "sharp"))
+    scene_error(config.motion.at,
+                "solid.motion: multirate and step = \"sharp\" know the basic elastic links only, not plasticity and "
+                "consistent strains. Leave one of them out.");
+  if (config.motion.multirate) assign_rates(config.motion.multirate->levels);
+  // Images are placed to rounding only: links to them have gaps.
+  if (config.sleep && !gravity_ && !rates_ && mesh_.far_sides.empty() && !consistent_ && !plastic)
+    sleep_ = std::make_unique<Sleep>(links_, count_);
   compute_forces();
+  if (config.motion.step == "sharp") {
+    Real bound = link_limit().dt;
+    comm_.min(std::span(&bound, 1));
+    sharp_limit_ = max(bound, 0.95 * estimated_limit());  // the products may leave the largest frequency 5 % short
+  }
 }
 
 void Solid::choose_particles(Surface const* surface, Opens opens) {
@@ -143,7 +165,8 @@ void Solid::store_particles() {
 LinkRest<double> Solid::rest_of(Link const& link) const {
   FaceGeometry const& face = mesh_.face(link.i, link.face_i);
   // A wall is a particle: at rest at the origin, or where its motion starts. An image has the arm of its far side.
-  Vec3 const place = mesh_.particle(link.i).centre + face.centroid;
+  Vec3 const arm_i = on_grain(mesh_, face.centroid);
+  Vec3 const place = mesh_.particle(link.i).centre + arm_i;
   Vec3 origin = link.j == Link::wall ? Vec3{} : mesh_.particle(link.j).centre + mesh_.shift(link);
   if (FarSide const* side = mesh_.far_side(link)) {
     if (side->kind == FarSide::Kind::moving_wall) origin = mesh_.motions[at(side->motion)].centre();
@@ -151,8 +174,7 @@ LinkRest<double> Solid::rest_of(Link const& link) const {
   }
   Vec3 const arm_j = place - origin;
   auto const bending = symmetric(bending_tensor(mesh_, link));
-  LinkRest<double> rest{link.stiffness,        link.weight,   triple(face.area * face.normal),
-                        triple(face.centroid), triple(arm_j), {}};
+  LinkRest<double> rest{link.stiffness, link.weight, triple(face.area * face.normal), triple(arm_i), triple(arm_j), {}};
   std::copy_n(bending.begin(), 6, rest.bending);
   return rest;
 }
@@ -209,6 +231,7 @@ void Solid::start_exchange() { halo_.start(comm_, pose_, half_); }
 void Solid::finish_exchange() {
   halo_.finish(pose_, half_);
   place_images();
+  if (sleep_) wake_moved_ghosts();
 }
 
 void Solid::place_images() {
@@ -225,6 +248,7 @@ void Solid::place_images() {
 
 void Solid::compute_strains() {
   place_images();
+  if (sleep_) return compute_strains_awake();
   if (!volumetric_) return;
   std::size_t const n = at(count_);
   std::copy(face_opening_.begin(), face_opening_.end(), opened_.begin());
@@ -242,11 +266,17 @@ void Solid::compute_strains() {
 
 void Solid::compute_forces() {
   compute_strains();
-  std::fill(wrench_.begin(), wrench_.end(), Wrench{});
-  if (damageable())
-    links_.add_wrench(pose_, pressure_, wrench_, gaps_);
-  else
-    links_.add_wrench(pose_, pressure_, wrench_);
+  if (sleep_) {
+    add_wrench_awake();
+  } else {
+    std::fill(wrench_.begin(), wrench_.end(), Wrench{});
+    if (rates_)
+      add_shared_wrench();
+    else if (damageable())
+      links_.add_wrench(pose_, pressure_, wrench_, gaps_, links_.all());
+    else
+      links_.add_wrench(pose_, pressure_, wrench_);
+  }
   if (consistent_) consistent_->add_wrench(pose_, wrench_);
   if (plastic_) plastic_->add_wrench(pose_, wrench_, gaps_);
   for (Image const& image : images_)

@@ -15,6 +15,8 @@
 #include "core/solid/mesh.hpp"
 #include "core/solid/particles.hpp"
 #include "core/solid/plasticity/plastic_strain.hpp"
+#include "core/solid/rates/rung.hpp"
+#include "core/solid/sleep.hpp"
 #include "core/solid/solid_config.hpp"
 #include "parallel/comm.hpp"
 
@@ -58,15 +60,17 @@ class Solid {
   std::size_t bytes() const;       ///< memory of the particles of this rank
   std::size_t link_bytes() const;  ///< memory of its links
 
-  // Columns over owned particles and ghosts. Of ghosts, pose and half velocity are current after exchange_pose.
+  // Columns over owned particles and ghosts. Ask for a column anew in every stage that writes to it: whoever asks wakes
+  // what he changed. Of ghosts, pose and half velocity are current after exchange_pose.
   std::span<Pose const> pose() const { return std::span(pose_).first(static_cast<std::size_t>(count_)); }
-  std::span<Pose> pose() { return std::span(pose_).first(static_cast<std::size_t>(count_)); }
+  std::span<Pose> pose() { return written_ = true, std::span(pose_).first(static_cast<std::size_t>(count_)); }
   std::span<Motion const> motion() const { return motion_; }
-  std::span<Motion> motion() { return motion_; }
+  std::span<Motion> motion() { return written_ = true, std::span(motion_); }
   std::span<HalfVelocity const> half_velocity() const { return half_; }
   std::span<Wrench const> internal() const { return std::span(wrench_).first(static_cast<std::size_t>(count_)); }
   std::span<Wrench const> load() const { return load_; }
-  std::span<Wrench> load() { return load_; }  ///< external, frozen over a step: owned entries are used
+  /// External, frozen over a step: owned entries are used.
+  std::span<Wrench> load() { return written_ = true, std::span(load_); }
 
   /// v += dt/2 (F/m + g), spin += dt/2 M, owned particles; books the impulse and work of reactions.
   void half_kick(Real dt);
@@ -78,12 +82,23 @@ class Solid {
   void exchange_pose() { start_exchange(), finish_exchange(); }
   void start_exchange();
   void finish_exchange();
-  /// Internal forces and torques of owned particles at the current poses. Collective with consistent strains.
+  /// All that happens between the two half kicks of a step: drift and exchange_pose; with multi-rate steps also the
+  /// kicks and drifts of the finer levels. Collective among neighbours.
+  void move(Real dt);
+  /// Internal forces and torques of owned particles at the current poses. With multi-rate steps those of a level count
+  /// with its share of the step, so that they are what both half kicks need. Collective with consistent
+  /// strains.
   void compute_forces();
   /// The first part of compute_forces: images, opened volumes and strain pressures at the current poses.
   void compute_strains();
-  /// A step without a fluid: kick_and_drift, exchange, forces, half_kick.
+  /// A step without other effects: half_kick, move, forces, half_kick.
   void step(Real dt);
+  /// Links computed in one step: those of finer levels as often as they are, those that sleep not at all.
+  std::int64_t link_updates() const;
+  /// May parts of the solid sleep: the scene's wish, unless gravity, multi-rate steps, moving walls or
+  /// images keep all awake?
+  bool may_sleep() const { return sleep_ != nullptr; }
+  Levels const* levels() const { return rates_ ? &rates_->levels : nullptr; }  ///< null: one step for all
 
   /// Tractions on boundary faces until the next call; the same list on every rank, each face once.
   /// Expects: free faces of the mesh.  They enter forces and volumetric strains at the next compute_forces.
@@ -92,9 +107,9 @@ class Solid {
   std::size_t add_loaded_faces(std::span<FaceLoad const> loads);
   /// The loaded faces of this rank, in the order in which they were given. After a change of their tractions,
   /// tractions_changed().
-  FaceTractions& face_tractions() { return face_tractions_; }
+  FaceTractions& face_tractions() { return written_ = true, face_tractions_; }
   FaceTractions const& face_tractions() const { return face_tractions_; }
-  void tractions_changed() { face_tractions_.open(face_opening_); }
+  void tractions_changed() { written_ = true, face_tractions_.open(face_opening_); }
 
   // Links of this rank, in global order: those of owned particles and of the first layer of ghosts.
   LinkStore const& link_store() const { return links_; }
@@ -106,7 +121,7 @@ class Solid {
   std::span<double const> pressure() const { return std::span(pressure_).first(static_cast<std::size_t>(count_)); }
   std::span<double const> opened() const { return std::span(opened_).first(static_cast<std::size_t>(count_)); }
   /// Forces of positions are added here after compute_forces: owned entries are used.
-  std::span<Wrench> internal() { return std::span(wrench_).first(static_cast<std::size_t>(count_)); }
+  std::span<Wrench> internal() { return written_ = true, std::span(wrench_).first(static_cast<std::size_t>(count_)); }
   /// Rows of `width` doubles per particle (count() rows), from owners to ghosts. Collective among neighbours.
   void exchange_rows(std::span<double> rows, std::size_t width) { halo_.exchange_rows(comm_, rows, width); }
 
@@ -190,15 +205,19 @@ class Solid {
   /// `state` leaves the external load as it is now: the predictor of a step is undone, its new load stays.
   void restore(Saved const& from, Restore what = Restore::state);
 
-  /// cfl times the guaranteed bound of theory/solid.md section 11, and a rotation of at most 1/4 rad a step. This rank
-  /// only.
+  /// cfl times the stable step of the links, and a rotation of at most 1/4 rad a step. This rank only.
   StableStep stable_limit() const;
   Real stable_step() const { return stable_limit().dt; }
-  /// The bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
+  /// The guaranteed bound without cfl and rotation: the smallest 2/omega_I of owned free particles.
+  /// Source: theory/solid.md section 11.
   StableStep link_limit() const;
   /// The bound 2/omega_I of each owned particle, s; 1e300 where it has no link or does not move freely.
   std::span<double const> step_limits() const;
   Real link_limit_of(Index owned) const { return step_limits()[static_cast<std::size_t>(owned)]; }
+  /// Collective. Estimate of the limit 2/omega_max of the undamaged links, from above, s: Lanczos on M^-1 K with the
+  /// linearised links, at most `products` of them. The same bits on every rank and for any dealing of particles.
+  /// Source: theory/solid.md section 11, sharp value.
+  Real estimated_limit(int products = 30);
 
   // The parts of the energy, J: of a particle with its rotation, of its volumetric strain (owned and first layer, at
   // the last compute_forces), and of a link.
@@ -238,12 +257,32 @@ class Solid {
   template <bool with_kick, bool with_drift>
   void advance(Real dt);
   void book_reactions(Real dt);
+  void book_clamps(Real dt, LinkStore const& links, std::span<std::size_t const> clamps,
+                   std::span<double const> link_share);
   std::vector<double> link_limits() const;
+  std::vector<double> volume_limits() const;
+  void compute_strains_awake();
+  void add_wrench_awake();
+  void add_shared_wrench();
+  void wake_written();
+  void wake_moving();
+  void wake_moved_ghosts();
+  bool undisturbed(Index local) const;
+  std::span<Sleep::Particles const> awake_particles();
+  std::span<Sleep::Particles const> awake_particles() const {
+    return sleep_ && !written_ ? sleep_->awake() : std::span(&everything_, 1);
+  }
+  void assign_rates(int most);
+  void fill_rung(int level);
+  void compute_rung(Rung const& rung);
+  void kick_rung(Rung const& rung, Real dt);
+  void drift_level(std::span<Index const> particles, Real dt, Real share, bool first);
 
   Mesh const& mesh_;
   parallel::Comm& comm_;
   int dimension_;
   Real cfl_;
+  Real sharp_limit_ = 0;  ///< s; 0 when the scene takes the guaranteed step
   std::optional<Vec3> gravity_;
   std::vector<int> owner_;
 
@@ -290,6 +329,10 @@ class Solid {
   FaceTractions face_tractions_;
   std::multimap<Index, int> held_faces_;
   Reactions reactions_;
+  std::unique_ptr<Rates> rates_;   // null: one step for all
+  std::unique_ptr<Sleep> sleep_;   // null: everything is awake
+  Sleep::Particles everything_{};  // all owned particles
+  bool written_ = true;            // someone else may have changed a column since the sleepers were looked at
   mutable std::vector<double> link_limits_;
 };
 

@@ -27,7 +27,19 @@ void LinksConfig::keys(Keys<LinksConfig>& k) {
 }
 
 void MotionConfig::keys(Keys<MotionConfig>& k) {
-  k("cfl", &MotionConfig::cfl, "1", "fraction of the guaranteed stable step").above(0).at_most(1);
+  k("cfl", &MotionConfig::cfl, "1", "fraction of the stable step").above(0).at_most(1);
+  k("step", &MotionConfig::step, "",
+    "stable step: guaranteed = bound of every particle; sharp = 0.95 of the limit of the whole solid, estimated once "
+    "by 30 Lanczos products")
+      .one_of({"guaranteed", "sharp"});
+  k("multirate", &MotionConfig::multirate, "",
+    "stiff parts of the solid take several steps while the others take one; absent = one step for all");
+}
+
+void MultirateConfig::keys(Keys<MultirateConfig>& k) {
+  k("levels", &MultirateConfig::levels, "", "at most so many different steps, each twice the next")
+      .at_least(2)
+      .at_most(8);
 }
 
 void BodyConfig::keys(Keys<BodyConfig>& k) {
@@ -56,6 +68,10 @@ void BodyConfig::keys(Keys<BodyConfig>& k) {
   k("corners", &BodyConfig::corners, "m",
     "prism: x, y of its corners, counter-clockwise; cartesian: one convex particle");
   k("cells", &BodyConfig::cells, "", "cartesian: particles along each side; polar: radial, around, axial").at_least(1);
+  k("layers_x", &BodyConfig::layers_x, "",
+    "cartesian box: relative thicknesses of the layers of particles along x, instead of equal ones");
+  k("layers_y", &BodyConfig::layers_y, "", "the same along y");
+  k("layers_z", &BodyConfig::layers_z, "", "the same along z");
   k("particles", &BodyConfig::particles, "", "voronoi: number of particles").at_least(1);
   k("seed", &BodyConfig::seed, "", "voronoi: seed of the generators");
   k("lloyd", &BodyConfig::lloyd, "", "voronoi: sweeps that move generators to the centres of their cells").at_least(0);
@@ -100,6 +116,7 @@ void SolidConfig::keys(Keys<SolidConfig>& k) {
   k("moment_tensor", &SolidConfig::moment_tensor, "", "seismic sources");
   k("absorbing", &SolidConfig::absorbing, "", "boundary faces that let plane waves out");
   k("contact", &SolidConfig::contact, "", "contact between bodies and between fragments");
+  k("sleep", &SolidConfig::sleep, "", "parts at rest that nothing has reached yet are skipped: the same bits, faster");
 }
 
 }  // namespace brisance::solid

@@ -39,9 +39,19 @@ struct LinksConfig {
   static void keys(Keys<LinksConfig>& k);
 };
 
+/// Multi-rate steps: parts of the solid take 1, 2, 4 ... steps in one.
+struct MultirateConfig {
+  int levels = 3;  ///< at most so many different steps
+  Location at;
+  static void keys(Keys<MultirateConfig>& k);
+};
+
 /// Time integration of the particles.
 struct MotionConfig {
-  Real cfl = 0.9;  ///< fraction of the guaranteed stable step
+  Real cfl = 0.9;                   ///< fraction of the stable step
+  std::string step = "guaranteed";  ///< which stable step: the bound of each particle, or "sharp"
+  std::optional<MultirateConfig> multirate;
+  Location at;
   static void keys(Keys<MotionConfig>& k);
 };
 
@@ -61,6 +71,7 @@ struct BodyConfig {
   Real phase = 0;                                      // polar: angle of the first corner, rad
   std::vector<Real> corners;                           // prism: x0, y0, x1, y1, ... counter-clockwise, m
   std::array<Index, 3> cells{1, 1, 1};                 // cartesian: along the sides; polar: radial, around, axial
+  std::vector<Real> layers_x, layers_y, layers_z;      // cartesian box: relative thicknesses instead of equal ones
   int particles = 100;                                 // voronoi: how many
   std::int64_t seed = 1;                               // voronoi: of the generators
   int lloyd = 20;                                      // voronoi: sweeps towards centroidal cells
@@ -91,6 +102,7 @@ struct SolidConfig {
   std::vector<MomentTensorConfig> moment_tensor;
   std::vector<AbsorbingConfig> absorbing;
   std::optional<ContactConfig> contact;
+  bool sleep = true;  ///< parts that nothing has reached yet are skipped; the bits are the same
   Location at;
   static void keys(Keys<SolidConfig>& k);
 };

@@ -47,6 +47,12 @@ void Solid::weaken(std::size_t link, Real intact) {
   for (double& c : rest.bending) c *= intact;
   links_.set_rest(link, rest);
   if (plastic_) plastic_->free_share(link, 1 - intact);
+  if (rates_)
+    for (Rung& rung : rates_->rungs) {
+      auto const found = std::lower_bound(rung.place.begin(), rung.place.end(), link);
+      if (found != rung.place.end() && *found == link)
+        rung.links.set_rest(static_cast<std::size_t>(found - rung.place.begin()), rest);
+    }
   set_bulk(of.i);
   if (of.j != Link::wall) set_bulk(of.j);
 }

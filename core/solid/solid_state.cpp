@@ -34,6 +34,7 @@ void Solid::save(Saved& to) const {
 }
 
 void Solid::restore(Saved const& from, Restore what) {
+  written_ = true;
   pose_ = from.pose;
   motion_ = from.motion;
   half_ = from.half;
@@ -52,40 +53,15 @@ std::size_t Solid::bytes() const {
          inertia_.size() * sizeof(Inertia) + owner_.size() * (sizeof(int) + sizeof(Index));
 }
 
-std::size_t Solid::link_bytes() const { return links_.bytes() + (consistent_ ? consistent_->bytes() : 0); }
+std::size_t Solid::link_bytes() const {
+  return links_.bytes() + (consistent_ ? consistent_->bytes() : 0) + (rates_ ? rates_->bytes() : 0);
+}
 
 Real Solid::kinetic_energy(Index particle) const {
   Motion const& m = motion_[at(particle)];
   Vec3 const body_spin = rotate(conjugate(pose_[at(particle)].q), m.spin);
   Vec3 const rate = symmetric_matrix(inertia_[at(inertia_of_[at(particle)])].inverse) * body_spin;
   return 0.5 * (dot(mesh_.particle(id(particle)).mass * m.v, m.v) + dot(body_spin, rate));
-}
-
-void Solid::measure(Measures& to) const {
-  for (Index l = 0; l < owned_; ++l) {
-    Real const mass = mesh_.particle(id(l)).mass;
-    Motion const& m = motion_[at(l)];
-    Vec3 const momentum = mass * m.v;
-    to.add(Measures::kinetic, kinetic_energy(l));
-    to.add(Measures::elastic, volumetric_energy(l));
-    if (plastic_) to.add(Measures::elastic, plastic_->slab_energy(l));
-    to.add(Measures::mass, mass);
-    to.add(Measures::momentum, momentum);
-    to.add(Measures::angular, cross(pose_[at(l)].x, momentum) + m.spin);
-    to.add(Measures::momentum_scale, norm(momentum));
-    if (m.turns != 0) {
-      to.add(Measures::first_moment, mass * pose_[at(l)].x);
-      to.add(Measures::free_mass, mass);
-    }
-  }
-  for (std::size_t k = 0; k < links_.count(); ++k) {
-    if (links_.end_i(k) < owned_) to.add(Measures::elastic, link_energy(k));
-  }
-  for (FaceTractions::Face const& face : face_tractions_.faces()) {
-    if (face.particle >= owned_) continue;
-    to.add(Measures::elastic, FaceTractions::energy(face));
-    if (plastic_) to.add(Measures::elastic, -face.normal_traction() * plastic_extension(face));
-  }
 }
 
 Real Solid::plastic_extension(FaceTractions::Face const& face) const {
@@ -206,6 +182,7 @@ std::vector<double> Solid::pack() const {
 void Solid::unpack(std::span<GlobalId const> ids, std::span<double const> rows) {
   require(rows.size() == ids.size() * row_size, Failure::system,
           "solid rows of a checkpoint have another length than their numbers: the file belongs to another version.");
+  written_ = true;
   for (std::size_t r = 0; r < ids.size(); ++r) {
     if (ids[r] < 0 || ids[r] >= mesh_.size()) continue;
     Index const l = local(ids[r]);

@@ -93,6 +93,17 @@ StrainBound strain_bound(Mesh const& mesh, GlobalId p, std::vector<int> const& h
   return bound;
 }
 
+/// |g| in the metric of the inverse mass of a particle; 0 if it is held.
+Real size(Mesh const& mesh, GlobalId p, Vector6 const& g, std::vector<int> const& moving) {
+  if (mesh.particle(p).freedom != Freedom::free) return 0;
+  Matrix6 m = Matrix6::Zero();
+  m.diagonal().head<3>().setConstant(mesh.particle(p).mass);
+  m.bottomRightCorner<3, 3>() = eigen(mesh.inertia(p));
+  Eigen::MatrixXd const mass = m(moving, moving);
+  Eigen::VectorXd const kept = g(moving);
+  return std::sqrt(kept.dot(mass.ldlt().solve(kept)));
+}
+
 /// The freedoms that move: rows of (u, theta).
 std::vector<int> freedoms(int dimension) {
   if (dimension == 1) return {0};
@@ -176,7 +187,58 @@ Matrix6s consistent_bound(Solid const& solid, std::vector<int> const& moving) {
   return bound;
 }
 
+/// How the volume of a particle depends on itself and on its neighbours, in the order of Mesh::links_of: sizes of the
+/// gradients of the opened volume.
+struct VolumeGradient {
+  std::vector<Real> of;
+  Real own = 0, sum = 0;
+};
+
+VolumeGradient volume_gradient(Mesh const& mesh, GlobalId p, std::vector<int> const& moving) {
+  VolumeGradient gradient;
+  Vector6 own = Vector6::Zero();
+  for (std::size_t l : mesh.links_of(p)) {
+    End const e = end_of(mesh, mesh.links[l], p);
+    own += e.weight * e.face->area * generalized_normal(e);
+    Real of_other = 0;
+    if (e.other != Link::wall) {
+      End const back = end_of(mesh, mesh.links[l], e.other);
+      of_other = e.weight * e.face->area * size(mesh, e.other, generalized_normal(back), moving);
+    }
+    gradient.of.push_back(of_other);
+    gradient.sum += of_other;
+  }
+  gradient.own = size(mesh, p, own, moving);
+  gradient.sum += gradient.own;
+  return gradient;
+}
+
 }  // namespace
+
+std::vector<double> Solid::volume_limits() const {
+  std::vector<int> const moving = freedoms(dimension_);
+  std::vector<double> squares(at(count_), 0);  // omega^2
+  // (sum_L g_L x_L)^2 <= (sum_L s_L) sum_K (g_K x_K)^2 / s_K with s = size(g).
+  for (Index l = 0; l < count_; ++l) {
+    GlobalId const p = id(l);
+    Real const lame = std::abs(mesh_.material(p).lame());
+    if (lame == 0) continue;
+    VolumeGradient const gradient = volume_gradient(mesh_, p, moving);
+    Real const scale = lame / mesh_.particle(p).effective_volume * gradient.sum;
+    squares[at(l)] += scale * gradient.own;
+    std::size_t k = 0;
+    for (std::size_t index : mesh_.links_of(p)) {
+      Link const& link = mesh_.links[index];
+      Real const of = gradient.of[k++];
+      if (link.j == Link::wall) continue;
+      Index const other = local(link.i == p ? link.j : link.i);
+      if (other >= 0) squares[at(other)] += scale * of;
+    }
+  }
+  std::vector<double> limits(at(owned_));
+  for (Index l = 0; l < owned_; ++l) limits[at(l)] = squares[at(l)] > 0 ? 2 / std::sqrt(squares[at(l)]) : 1e300;
+  return limits;
+}
 
 std::vector<double> Solid::link_limits() const {
   std::vector<int> const moving = freedoms(dimension_);
@@ -243,14 +305,17 @@ StableStep Solid::link_limit() const {
 
 StableStep Solid::stable_limit() const {
   StableStep best = link_limit();
-  best.dt *= cfl_;
-  for (Index l = 0; l < owned_; ++l) {
-    Vec3 const spin = rotate(conjugate(pose_[at(l)].q), motion_[at(l)].spin);
-    auto const& t = inertia_[at(inertia_of_[at(l)])].inverse;
-    Triple<double> const rate = symmetric_times(t.data(), Triple<double>{spin.x, spin.y, spin.z});
-    Real const speed = std::sqrt(dot(rate, rate));
-    if (speed * best.dt > 0.25) best = {0.25 / speed, id(l), true};
-  }
+  if (sharp_limit_ > 0) best.dt = sharp_limit_;
+  best.dt = rates_ ? rates_->levels.step() : cfl_ * best.dt;
+  for (Sleep::Particles const& range : awake_particles())
+    for (Index l = range.first; l < std::min(range.end, owned_); ++l) {
+      Vec3 const spin = rotate(conjugate(pose_[at(l)].q), motion_[at(l)].spin);
+      auto const& t = inertia_[at(inertia_of_[at(l)])].inverse;
+      Triple<double> const rate = symmetric_times(t.data(), Triple<double>{spin.x, spin.y, spin.z});
+      Real const speed = std::sqrt(dot(rate, rate));
+      Real const steps = rates_ ? rates_->steps_of(id(l)) : 1;
+      if (speed * best.dt > 0.25 * steps) best = {0.25 * steps / speed, id(l), true};
+    }
   return best;
 }
 

@@ -46,6 +46,10 @@ if grep -q '^\[fluid\]' "$scene"; then
   run 2 awake run "$scene" --out "$work/awake" --steps "$steps" "$@" --set fluid.sleep=false
   check "no block sleeps" "$work/awake"
 fi
+if grep -q '^\[solid\]' "$scene"; then
+  run 2 solid-awake run "$scene" --out "$work/solid-awake" --steps "$steps" "$@" --set solid.sleep=false
+  check "no part of a solid sleeps" "$work/solid-awake"
+fi
 half=$((steps / 2))
 for pair in "1 3" "2 1" "4 2"; do
   read -r before after <<<"$pair"

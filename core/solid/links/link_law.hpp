@@ -86,4 +86,33 @@ inline V link_energy(LinkRest<V> const& rest, LinkEnds<V> const& at) {
   return multiply_add(V(0.5) * rest.stiffness, dot(frame.gap, frame.gap), dot(q, symmetric_times(rest.bending, q)));
 }
 
+/// Small motion of the two ends about the reference state, where nothing is stressed.
+template <class V>
+struct SmallEnds {
+  Triple<V> u_i, turn_i, u_j, turn_j;
+};
+
+template <class V>
+inline Triple<V> small_gap(LinkRest<V> const& rest, SmallEnds<V> const& at) {
+  return (at.u_j + cross(at.turn_j, rest.arm_j)) - (at.u_i + cross(at.turn_i, rest.arm_i));
+}
+
+/// `opened_volume` to first order.
+template <class V>
+inline V small_opened_volume(LinkRest<V> const& rest, SmallEnds<V> const& at) {
+  return dot(small_gap(rest, at), rest.area);
+}
+
+/// `link_wrench` to first order: the gap and the strains are small of first order, so their product drops out.
+template <class V>
+inline LinkWrench<V> small_wrench(LinkRest<V> const& rest, SmallEnds<V> const& at, V pressure_i, V pressure_j) {
+  V const p = multiply_add(rest.weight, pressure_i - pressure_j, pressure_j);
+  LinkWrench<V> out;
+  out.force = multiply_add(p, rest.area, rest.stiffness * small_gap(rest, at));
+  Triple<V> const moment = symmetric_times(rest.bending, V(0.5) * (at.turn_j - at.turn_i));
+  out.torque_i = cross_add(rest.arm_i, out.force, moment);
+  out.torque_j = cross_add(rest.arm_j, out.force, moment);
+  return out;
+}
+
 }  // namespace brisance::solid

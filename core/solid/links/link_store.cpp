@@ -30,8 +30,8 @@ void LinkStore::set_rest(std::size_t link, LinkRest<double> const& rest) {
   for_each_field(rest, [&](std::size_t f, double value) { blocks_[link / lanes].rest[f][link % lanes] = value; });
 }
 
-void LinkStore::add_opened_volume(std::span<Pose const> pose, std::span<double> opened) const {
-  for (std::size_t at = 0; at < blocks_.size(); ++at) {
+void LinkStore::add_opened_volume(std::span<Pose const> pose, std::span<double> opened, Range range) const {
+  for (std::size_t at = range.first; at < range.end; ++at) {
     LinkBlock const& b = blocks_[at];
     if (at + ahead < blocks_.size())
       for (Index j : blocks_[at + ahead].j) fetch(&pose[static_cast<std::size_t>(j)]);
@@ -48,10 +48,10 @@ void LinkStore::add_opened_volume(std::span<Pose const> pose, std::span<double> 
   }
 }
 
-template <bool with_gaps>
-void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
-                           std::span<GapBlock> gaps) const {
-  for (std::size_t at = 0; at < blocks_.size(); ++at) {
+template <bool with_gaps, class RestOf>
+void LinkStore::add_wrench_of(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
+                              std::span<GapBlock> gaps, Range range, RestOf rest_of) const {
+  for (std::size_t at = range.first; at < range.end; ++at) {
     LinkBlock const& b = blocks_[at];
     if (at + ahead < blocks_.size())
       for (Index j : blocks_[at + ahead].j) {
@@ -59,7 +59,7 @@ void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> p
         fetch(&wrench[static_cast<std::size_t>(j)]);
       }
     LinkGap<Lanes> gap;
-    LinkWrench<Lanes> const w = link_wrench(read_rest(b), read_ends(pose.data(), b), gather(pressure.data(), b.i),
+    LinkWrench<Lanes> const w = link_wrench(rest_of(at), read_ends(pose.data(), b), gather(pressure.data(), b.i),
                                             gather(pressure.data(), b.j), with_gaps ? &gap : nullptr);
     if constexpr (with_gaps) {
       gap.opened.store_aligned(gaps[at].opened.data());
@@ -70,10 +70,35 @@ void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> p
   }
 }
 
-template void LinkStore::add_wrench<false>(std::span<Pose const>, std::span<double const>, std::span<Wrench>,
-                                           std::span<GapBlock>) const;
-template void LinkStore::add_wrench<true>(std::span<Pose const>, std::span<double const>, std::span<Wrench>,
-                                          std::span<GapBlock>) const;
+void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
+                           Range range) const {
+  add_wrench_of<false>(pose, pressure, wrench, {}, range,
+                       [this](std::size_t block) { return read_rest(blocks_[block]); });
+}
+
+void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
+                           std::span<GapBlock> gaps, Range range) const {
+  add_wrench_of<true>(pose, pressure, wrench, gaps, range,
+                      [this](std::size_t block) { return read_rest(blocks_[block]); });
+}
+
+void LinkStore::add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<double const> share,
+                           std::span<Wrench> wrench) const {
+  add_wrench_of<false>(pose, pressure, wrench, {}, all(), [&](std::size_t block) {
+    LinkRest<Lanes> rest = read_rest(blocks_[block]);
+    Lanes const of = Lanes::load_unaligned(&share[block * lanes]);
+    rest.stiffness *= of;
+    for (Lanes& c : rest.bending) c *= of;
+    return rest;
+  });
+}
+
+std::array<double, lanes> LinkStore::energy(std::span<Pose const> pose, std::size_t block) const {
+  LinkBlock const& b = blocks_[block];
+  std::array<double, lanes> energies;
+  link_energy(read_rest(b), read_ends(pose.data(), b)).store_unaligned(energies.data());
+  return energies;
+}
 
 LinkEnds<double> ends_of(Pose const& i, Pose const& j) {
   auto triple = [](Vec3 const& v) { return Triple<double>{v.x, v.y, v.z}; };

@@ -31,23 +31,41 @@ class LinkStore {
   std::span<LinkBlock const> records() const { return blocks_; }
   void set_rest(std::size_t link, LinkRest<double> const& rest);
 
-  /// Adds to `opened` of both ends the volume their links open, m3.
-  void add_opened_volume(std::span<Pose const> pose, std::span<double> opened) const;
-  /// Adds the forces and torques of all links to both ends. `pressure`: lambda epsilon, Pa.
-  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench) const {
-    add_wrench<false>(pose, pressure, wrench, {});
+  /// Blocks [first, end) of four links.
+  struct Range {
+    std::size_t first = 0, end = 0;
+  };
+  Range all() const { return {0, blocks_.size()}; }
+  LinkBlock const& block(std::size_t at) const { return blocks_[at]; }
+
+  /// Adds to `opened` of both ends the volume the links of a range open, m3.
+  void add_opened_volume(std::span<Pose const> pose, std::span<double> opened, Range range) const;
+  void add_opened_volume(std::span<Pose const> pose, std::span<double> opened) const {
+    add_opened_volume(pose, opened, all());
   }
-  /// The same, and leaves the gaps of all links in `gaps`, four to a block in the order of the store.
+  /// Adds the forces and torques of the links of a range to both ends. `pressure`: lambda epsilon, Pa.
   void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
-                  std::span<GapBlock> gaps) const {
-    add_wrench<true>(pose, pressure, wrench, gaps);
+                  Range range) const;
+  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench) const {
+    add_wrench(pose, pressure, wrench, all());
   }
+  /// The same, and leaves the gaps of the links in `gaps`, four to a block in the order of the store.
+  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
+                  std::span<GapBlock> gaps, Range range) const;
+  /// Energy of the four links of a block without their volumetric part, J; 0 in spare lanes.
+  std::array<double, lanes> energy(std::span<Pose const> pose, std::size_t block) const;
+  /// add_wrench with the stiffness and bending of link k times share[k]. `share`: one entry for every lane of the
+  /// store.
+  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<double const> share,
+                  std::span<Wrench> wrench) const;
   std::size_t blocks() const { return blocks_.size(); }
+  std::size_t padded_count() const { return blocks_.size() * lanes; }
 
  private:
-  template <bool with_gaps>
-  void add_wrench(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
-                  std::span<GapBlock> gaps) const;
+  template <bool with_gaps, class RestOf>
+  void add_wrench_of(std::span<Pose const> pose, std::span<double const> pressure, std::span<Wrench> wrench,
+                     std::span<GapBlock> gaps, Range range, RestOf rest_of) const;
+
   // Every particle receives its links one after the other in the order of the store, which is the global order: the
   // sums have the same bits whatever the lane or rank. Lanes left over in the last block have no stiffness and add
   // zero.

@@ -42,6 +42,8 @@ Mat3 frame_about(Vec3 const& axis);
 
 /// Regular bricks of the box [low, high], x fastest.
 Cells cartesian_box(Vec3 const& low, Vec3 const& high, std::array<Index, 3> const& cells);
+/// Bricks between planes at `cuts` along x, y and z, ascending; x fastest.
+Cells graded_box(std::array<std::vector<Real>, 3> const& cuts);
 /// Bricks of a plate about `centre`, sides `length` x `width`, `thickness` along `normal`.
 Cells cartesian_plate(BodyConfig const& body);
 /// One convex prism over the corners of a polygon.

@@ -1,4 +1,5 @@
 // Cartesian and polar tessellations: cells whose corners lie on a regular grid of parameters.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -68,6 +69,32 @@ Cells bricks(Shape const& shape, std::array<Index, 3> const& n, Place place) {
 }
 
 }  // namespace
+
+Cells graded_box(std::array<std::vector<Real>, 3> const& cuts) {
+  std::array<Index, 3> n{};
+  for (std::size_t d = 0; d < 3; ++d) n[d] = static_cast<Index>(cuts[d].size()) - 1;
+  auto cut = [&](std::size_t d, Real at) { return cuts[d][static_cast<std::size_t>(at)]; };
+  auto middle = [&](std::size_t d, Real at) { return 0.5 * (cut(d, at) + cut(d, at + 1)); };
+  Cells cells = bricks({}, n, [&](Real i, Real j, Real k) { return Vec3{middle(0, i), middle(1, j), middle(2, k)}; });
+  // Layers of one thickness share their shape: cut 0.3 and 1.0 - 0.7 are the same to rounding.
+  std::vector<std::pair<Vec3, Index>> known;
+  cells.shapes.clear();
+  for (std::size_t c = 0; c < cells.count(); ++c) {
+    auto const at = static_cast<Index>(c);
+    Index const i = at % n[0], j = at / n[0] % n[1], k = at / (n[0] * n[1]);
+    Vec3 const size{cut(0, i + 1) - cut(0, i), cut(1, j + 1) - cut(1, j), cut(2, k + 1) - cut(2, k)};
+    auto const same = [&](std::pair<Vec3, Index> const& s) { return norm(s.first - size) <= 1e-12 * norm(size); };
+    auto const found = std::find_if(known.begin(), known.end(), same);
+    if (found != known.end()) {
+      cells.shape[c] = found->second;
+      continue;
+    }
+    cells.shape[c] = static_cast<Index>(cells.shapes.size());
+    known.emplace_back(size, cells.shape[c]);
+    cells.shapes.push_back(make_shape(brick(-0.5 * size, 0.5 * size)).first);
+  }
+  return cells;
+}
 
 Cells cartesian_box(Vec3 const& low, Vec3 const& high, std::array<Index, 3> const& n) {
   Vec3 const size = high - low;

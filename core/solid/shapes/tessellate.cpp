@@ -1,4 +1,6 @@
 // From the words of a scene to cells: which tessellation fits which shape, and which dimensions it needs.
+#include <numeric>
+
 #include "core/solid/meshes/mesh_body.hpp"
 #include "core/solid/shapes/cells.hpp"
 #include "core/solid/shapes/domains.hpp"
@@ -32,9 +34,33 @@ Cells tessellate_box(BodyConfig const& body, int dimension) {
   if (body.tessellation == "voronoi")
     return voronoi(axis_box(low, high), body.particles, body.seed, body.lloyd, dimension);
   auto cells = body.cells;
+  std::array<std::vector<Real> const*, 3> const layers{&body.layers_x, &body.layers_y, &body.layers_z};
+  bool graded = false;
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (layers[d]->empty()) continue;
+    graded = true;
+    cells[d] = static_cast<Index>(layers[d]->size());
+    for (Real const thickness : *layers[d])
+      if (!(thickness > 0))
+        refuse(body, std::string("layers_") + "xyz"[d] + " has a thickness that is not above 0. Correct it.");
+  }
   for (std::size_t d = static_cast<std::size_t>(dimension); d < 3; ++d)
     if (cells[d] != 1) refuse(body, "more than one layer of cells out of the plane. Give as many cells as dimensions.");
-  return cartesian_box(low, high, cells);
+  if (!graded) return cartesian_box(low, high, cells);
+  std::array<std::vector<Real>, 3> cuts;
+  for (std::size_t d = 0; d < 3; ++d) {
+    std::vector<Real> const thickness =
+        layers[d]->empty() ? std::vector<Real>(static_cast<std::size_t>(cells[d]), 1.0) : *layers[d];
+    Real const all = std::accumulate(thickness.begin(), thickness.end(), 0.0);
+    Real below = 0;
+    int const axis = static_cast<int>(d);
+    for (Real const t : thickness) {
+      cuts[d].push_back(low[axis] + (high[axis] - low[axis]) * (below / all));
+      below += t;
+    }
+    cuts[d].push_back(high[axis]);
+  }
+  return graded_box(cuts);
 }
 
 Cells tessellate_round(BodyConfig const& body, int dimension) {

@@ -9,6 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "parallel/sum_batch.hpp"
+
 namespace brisance::parallel {
 namespace {
 
@@ -124,6 +126,42 @@ TEST(ExactSum, NaNAndInfinityPoison) {
     ExactSum restarted;
     restarted.raw() = sum.raw();
     EXPECT_TRUE(std::isnan(restarted.value()));
+  }
+}
+
+TEST(SumBatch, HasTheBitsOfTheSumOneByOne) {
+  std::mt19937_64 random(11);
+  for (int const span : {0, 10, 60, 200, 900, 1070}) {  // powers of two between the largest and the smallest
+    for (std::size_t const count : {1u, 7u, 255u, 256u, 257u, 5000u}) {
+      ExactSum one_by_one, batched;
+      {
+        SumBatch batch(batched);
+        for (std::size_t n = 0; n < count; ++n) {
+          double const mantissa = std::uniform_real_distribution<double>(-1, 1)(random);
+          int const exponent = span == 0 ? 0 : std::uniform_int_distribution<int>(-span, 0)(random);
+          double const value = std::ldexp(mantissa, exponent);
+          one_by_one.add(value);
+          batch.add(value);
+        }
+      }
+      EXPECT_EQ(bits(one_by_one.value()), bits(batched.value())) << "span " << span << ", " << count << " numbers";
+    }
+  }
+  ExactSum cancels;
+  {
+    SumBatch batch(cancels);
+    for (double x : {1e300, 1.0, -1e300, 1e-300}) batch.add(x);
+    for (double x : {1.0, -1.0}) batch.add(x);
+  }
+  EXPECT_EQ(cancels.value(), sum_of({1.0, 1e-300}));
+  for (double const bad : {Limits::quiet_NaN(), Limits::infinity()}) {
+    ExactSum sum;
+    {
+      SumBatch batch(sum);
+      batch.add(1);
+      batch.add(bad);
+    }
+    EXPECT_TRUE(std::isnan(sum.value()));
   }
 }
 

@@ -48,7 +48,46 @@ TEST(StableStep, BoundIsSafeAndNearTheLimitOfABlock) {
         evidence::near("S22", "stable step 8^3", variant, "guaranteed bound / limit", bound / limit, 0.87, 0.13));
     EXPECT_TRUE(evidence::at_most("S22", "stable step 8^3", variant, "growth of energy at the guaranteed bound",
                                   growth(config, bound, 2000), 2));
+    EXPECT_TRUE(evidence::near("S22", "stable step 8^3", variant, "estimate of the limit by 30 products / limit",
+                               body.solid.estimated_limit() / limit, 1, 0.03));
+    config.motion.step = "sharp";
+    config.motion.cfl = 1;
+    Real const sharp = testing::Lone(config).solid.stable_step();
+    EXPECT_TRUE(evidence::at_most("S22", "stable step 8^3", variant, "growth of energy at the sharp step",
+                                  growth(config, sharp, 2000), 2));
   }
+}
+
+/// Blow-up above the estimate and none at the sharp step, where one thin slice sets the step.
+TEST(StableStep, SharpStepOfAVoronoiBallAndOfARodInThePlane) {
+  SolidConfig ball = testing::one_material(1, 1, 0.3);
+  BodyConfig b;
+  b.material = "m";
+  b.shape = "sphere";
+  b.tessellation = "voronoi";
+  b.particles = 120;
+  b.lloyd = 2;
+  b.centre = Vec3{0, 0, 0};
+  b.radius = 2.0;
+  ball.body.push_back(b);
+  ball.motion.step = "sharp";
+  ball.motion.cfl = 1;
+  testing::Lone body(ball);
+  Real const estimate = body.solid.estimated_limit(), sharp = body.solid.stable_step();
+  EXPECT_TRUE(evidence::at_most("S22", "stable step of a Voronoi ball", "2 Lloyd sweeps", "guaranteed bound / estimate",
+                                body.solid.link_limit().dt / estimate, 1));
+  EXPECT_TRUE(evidence::at_most("S22", "stable step of a Voronoi ball", "2 Lloyd sweeps",
+                                "growth of energy at the sharp step", growth(ball, sharp, 2000), 2));
+  EXPECT_TRUE(evidence::at_most("S22", "stable step of a Voronoi ball", "2 Lloyd sweeps",
+                                "1 / growth at 1.03 of the estimate", 1 / growth(ball, 1.03 * estimate, 2000), 1e-6));
+  EXPECT_NEAR(body.solid.estimated_limit(60) / estimate, 1, 0.01);
+
+  // One particle and its wall, in one dimension: two masses never pass 2 / sqrt(k / m).
+  SolidConfig rod = testing::one_material(2, 3, 0);
+  rod.body.push_back(testing::box({0, 0, 0}, {1, 1, 1}, {1, 1, 1}));
+  rod.body[0].clamp.push_back({{0, 0, 0}, {0, 1, 1}});
+  testing::Lone spring(rod, 1);
+  EXPECT_NEAR(spring.solid.estimated_limit(), 2 / std::sqrt(2 * 1.5 / 0.5 * 1.0 / 2), 1e-14);
 }
 
 }  // namespace
