@@ -4,12 +4,12 @@ brisance_test(solid_unit
           unit/core/solid/plasticity_test.cpp
           unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
           unit/core/solid/contact_test.cpp unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
+          unit/core/solid/sleep_test.cpp unit/core/solid/contact_test.cpp unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
           unit/core/solid/fracture/link_laws_test.cpp unit/core/solid/fracture/fragments_test.cpp
   LINKS brisance::solid LABELS unit)
 brisance_test(solid_meshes
   SOURCES unit/core/solid/meshes/gmsh_test.cpp unit/core/solid/meshes/surface_test.cpp
           unit/core/solid/meshes/quality_test.cpp
-          unit/core/solid/sleep_test.cpp
   LINKS brisance::solid LABELS unit)
 brisance_test(solid_statics SOURCES verification/solid/statics_test.cpp LINKS brisance::solid LABELS verification)
 add_library(brisance_linear_solid STATIC support/linear_solid.cpp support/uniaxial.cpp)

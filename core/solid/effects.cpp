@@ -25,6 +25,7 @@ constexpr std::size_t bytes_per_link = 176;  // ends, stiffness, area, arms, nor
 }  // namespace
 
 void Dynamics::join(Plan& plan) {
+  solid_.let_sleep();
   plan.effect("solid.motion", [this] {
     return static_cast<std::size_t>(solid_.count()) *
            (sizeof(Pose) + sizeof(Motion) + sizeof(HalfVelocity) + 2 * sizeof(Wrench) + sizeof(Inertia));

@@ -53,8 +53,7 @@ Solid::Solid(Mesh const& mesh, SolidConfig const& config, std::vector<int> owner
                 "consistent strains. Leave one of them out.");
   if (config.motion.multirate) assign_rates(config.motion.multirate->levels);
   // Images are placed to rounding only: links to them have gaps.
-  if (config.sleep && !gravity_ && !rates_ && mesh_.far_sides.empty() && !consistent_ && !plastic)
-    sleep_ = std::make_unique<Sleep>(links_, count_);
+  sleep_allowed_ = config.sleep && !gravity_ && !rates_ && mesh_.far_sides.empty() && !consistent_ && !plastic;
   compute_forces();
   if (config.motion.step == "sharp") {
     Real bound = link_limit().dt;

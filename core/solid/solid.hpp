@@ -60,8 +60,7 @@ class Solid {
   std::size_t bytes() const;       ///< memory of the particles of this rank
   std::size_t link_bytes() const;  ///< memory of its links
 
-  // Columns over owned particles and ghosts. Ask for a column anew in every stage that writes to it: whoever asks wakes
-  // what he changed. Of ghosts, pose and half velocity are current after exchange_pose.
+  // Columns over owned particles and ghosts. Of ghosts, pose and half velocity are current after exchange_pose.
   std::span<Pose const> pose() const { return std::span(pose_).first(static_cast<std::size_t>(count_)); }
   std::span<Pose> pose() { return written_ = true, std::span(pose_).first(static_cast<std::size_t>(count_)); }
   std::span<Motion const> motion() const { return motion_; }
@@ -95,6 +94,9 @@ class Solid {
   void step(Real dt);
   /// Links computed in one step: those of finer levels as often as they are, those that sleep not at all.
   std::int64_t link_updates() const;
+  /// Parts that nothing has reached yet are skipped from now on, if the scene lets them. From then on ask for a column
+  /// anew in every stage that writes to it: whoever asks wakes what he changed.
+  void let_sleep();
   /// May parts of the solid sleep: the scene's wish, unless gravity, multi-rate steps, moving walls or
   /// images keep all awake?
   bool may_sleep() const { return sleep_ != nullptr; }
@@ -329,8 +331,9 @@ class Solid {
   FaceTractions face_tractions_;
   std::multimap<Index, int> held_faces_;
   Reactions reactions_;
-  std::unique_ptr<Rates> rates_;   // null: one step for all
-  std::unique_ptr<Sleep> sleep_;   // null: everything is awake
+  std::unique_ptr<Rates> rates_;  // null: one step for all
+  std::unique_ptr<Sleep> sleep_;  // null: everything is awake
+  bool sleep_allowed_ = false;
   Sleep::Particles everything_{};  // all owned particles
   bool written_ = true;            // someone else may have changed a column since the sleepers were looked at
   mutable std::vector<double> link_limits_;

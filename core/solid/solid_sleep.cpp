@@ -27,6 +27,12 @@ bool Solid::undisturbed(Index l) const {
          face_opening_[at(l)] == 0;
 }
 
+void Solid::let_sleep() {
+  if (!sleep_allowed_ || sleep_) return;
+  sleep_ = std::make_unique<Sleep>(links_, count_);
+  written_ = true;
+}
+
 void Solid::wake_written() {
   if (!written_) return;
   written_ = false;

@@ -76,6 +76,7 @@ Outcome run(SolidConfig const& config, int dimension, std::vector<int> const& ow
   Mesh const mesh = build_mesh(config, dimension);
   Surface const surface(mesh);
   Solid solid(mesh, config, owner, comm, dimension, &surface);
+  solid.let_sleep();
   Real step = solid.stable_step();
   comm.min(std::span(&step, 1));
   for (Index p = 0; p < solid.owned(); ++p) {

@@ -51,6 +51,8 @@ TEST(SolidSleep, UndisturbedBodiesHaveNoForceAtAll) {
 TEST(SolidSleep, AWaveWakesWhatItReachesAndGivesTheSameBits) {
   Lone sleepy(bar_and_block(true)), awake(bar_and_block(false));
   auto const all = static_cast<std::int64_t>(awake.solid.links());
+  sleepy.solid.let_sleep();
+  sleepy.solid.compute_forces();
   EXPECT_EQ(sleepy.solid.link_updates(), 0);
   for (Lone* body : {&sleepy, &awake})
     for (GlobalId p = 0; p < body->mesh.size(); ++p)
@@ -93,6 +95,7 @@ TEST(SolidSleep, LoadsForcesTractionsAndAnyOtherTouchWake) {
   for (std::size_t t = 0; t < touches.size(); ++t) {
     Lone sleepy(bar_and_block(true)), awake(bar_and_block(false));
     auto const before = digest(awake.solid);
+    sleepy.solid.let_sleep();
     for (Lone* body : {&sleepy, &awake}) {
       body->solid.step(0.3);
       touches[t](body->solid);
@@ -105,6 +108,7 @@ TEST(SolidSleep, LoadsForcesTractionsAndAnyOtherTouchWake) {
 
 TEST(SolidSleep, ARestoredStateGoesOnWithTheSameBits) {
   Lone sleepy(bar_and_block(true)), awake(bar_and_block(false));
+  sleepy.solid.let_sleep();
   for (Lone* body : {&sleepy, &awake}) {
     Solid::Saved start;
     body->solid.save(start);
