@@ -283,7 +283,7 @@ void start_effects(World& world) {
 void start(World& w, Scene const& scene) {
   if (w.cut_cells) w.cut_cells->cut_initial_geometry();
   if (w.flow) fluid::fill(*w.flow, *scene.fluid, fluid_volumes(w));
-  if (w.cut_cells) w.cut_cells->start();
+  if (w.cut_cells) w.cut_cells->begin();
   if (w.dynamics) w.dynamics->start();
   start_effects(w);
   w.simulation->audit();

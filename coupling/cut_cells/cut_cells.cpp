@@ -46,7 +46,7 @@ void CutCells::cut_initial_geometry() {
   rebuild_record();
 }
 
-void CutCells::start() {
+void CutCells::begin() {
   // Small cells of the initial fields merge like those of a step.
   next_.triangles = record_.triangles;
   next_.rebuild();

@@ -22,10 +22,10 @@ class CutCells : public Effect {
   void join(Plan& plan) override;
 
   /// Collective. Geometry of the initial positions; to be called before the fluid is filled (charges are exact over
-  /// fluid volumes), then `start` once it is.
+  /// fluid volumes), then `begin` once it is.
   void cut_initial_geometry();
   /// Collective. Merges the small cells of the initial fields, sets mirror states and the load of the initial state.
-  void start();
+  void begin();
 
   /// Friction and heat at the walls, for a flow with viscosity. To be called once, before join; the result belongs to
   /// this and must be given to the viscous terms.
