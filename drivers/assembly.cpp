@@ -257,6 +257,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (w.solid) solid::require_multirate_support(*scene.solid, w.plan);
   if (!scene.output.gauge.empty()) {
     w.gauges = std::make_unique<fluid::Gauges>(scene.output.gauge, *scene.fluid, *w.flow, fluid_volumes(w));
+    w.sampled_files.push_back(w.gauges.get());
     w.gauges->join(w.plan);
   }
   if (!scene.output.solid_gauge.empty()) {
@@ -264,6 +265,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     for (fluid::GaugeConfig const& gauge : scene.output.gauge) taken.push_back(gauge.name);
     solid::check(scene.output.solid_gauge, taken, *w.mesh, scene.end_time);
     w.solid_gauges = std::make_unique<solid::SolidGauges>(scene.output.solid_gauge, *w.solid, comm);
+    w.sampled_files.push_back(w.solid_gauges.get());
     w.solid_gauges->join(w.plan);
   }
   TimeControl const control{scene.end_time, w.flow ? fluid::steps_per_pair(w.dimension) : 1,

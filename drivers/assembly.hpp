@@ -38,6 +38,7 @@ struct World {
   std::unique_ptr<coupling::CutCells> cut_cells;
   std::unique_ptr<fluid::Gauges> gauges;
   std::unique_ptr<solid::SolidGauges> solid_gauges;
+  std::vector<SampledFiles*> sampled_files;  ///< of the gauges
   Plan plan;
   std::unique_ptr<Simulation> simulation;
 };

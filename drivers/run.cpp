@@ -139,11 +139,8 @@ int execute(Job const& job, parallel::Comm& comm) {
     resume(*world, job.checkpoints);
     start_effects(*world);
   }
-  if (world->gauges)
-    for (std::string const& remark : world->gauges->open(job.directory, simulation.clock())) spdlog::warn("{}", remark);
-  if (world->solid_gauges)
-    for (std::string const& remark : world->solid_gauges->open(job.directory, simulation.clock()))
-      spdlog::warn("{}", remark);
+  for (SampledFiles* files : world->sampled_files)
+    for (std::string const& remark : files->open(job.directory, simulation.clock())) spdlog::warn("{}", remark);
   Output output(*world, scene, job.directory);
   comm.barrier();
   if (fresh)
@@ -176,8 +173,7 @@ int execute(Job const& job, parallel::Comm& comm) {
   while (!reached()) {
     std::int64_t const retries = simulation.statistics().retries;
     simulation.pair();
-    if (world->gauges) world->gauges->accept(simulation.clock());
-    if (world->solid_gauges) world->solid_gauges->accept(simulation.clock());
+    for (SampledFiles* files : world->sampled_files) files->accept(simulation.clock());
     if (simulation.statistics().retries > retries && warnings++ < 20)
       spdlog::warn("step {}: a pair of steps was redone with dt = {:.3g} s: {}", simulation.clock().step,
                    simulation.clock().dt, simulation.statistics().last_rejection);

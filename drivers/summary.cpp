@@ -67,8 +67,7 @@ void update_extrema(World& world, RunState& run) {
 
 void write_summary(World& world, RunState const& run, std::string const& directory) {
   parallel::Comm& comm = *world.comm;
-  if (world.gauges) world.gauges->flush();
-  if (world.solid_gauges) world.solid_gauges->flush();
+  for (SampledFiles* files : world.sampled_files) files->flush();
   Simulation& simulation = *world.simulation;
   std::string const digest = simulation.digest().hex();
 

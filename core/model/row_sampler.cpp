@@ -2,16 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdlib>
-
 namespace brisance {
-namespace {
-
-/// Sampling times and steps that end on them agree to rounding.
-constexpr Real rounding = 1e-12;
-
-}  // namespace
 
 std::string RowSampler::header() const {
   std::string text = "time";
@@ -30,16 +21,16 @@ void RowSampler::start(Real time, std::span<Real const> values, std::string& row
   time_ = time;
   last_.assign(values.begin(), values.end());
   lowest_ = highest_ = last_;
-  next_ = static_cast<std::int64_t>(std::ceil(time / interval_ * (1 - rounding)));
-  if (sampling_time(next_) <= time * (1 + rounding)) row(sampling_time(next_++), values, rows);
+  samples_.start(time);
+  if (auto const t = samples_.take(time)) row(*t, values, rows);
 }
 
 void RowSampler::add(Real time, std::span<Real const> values, std::string& rows) {
   std::vector<Real> here(values.size());
-  for (; sampling_time(next_) <= time * (1 + rounding); ++next_) {
-    Real const t = sampling_time(next_), w = clamp((t - time_) / (time - time_), 0, 1);
+  while (auto const t = samples_.take(time)) {
+    Real const w = clamp((*t - time_) / (time - time_), 0, 1);
     for (std::size_t c = 0; c < here.size(); ++c) here[c] = (1 - w) * last_[c] + w * values[c];
-    row(t, here, rows);
+    row(*t, here, rows);
   }
   time_ = time;
   last_.assign(values.begin(), values.end());
@@ -49,27 +40,15 @@ void RowSampler::add(Real time, std::span<Real const> values, std::string& rows)
   }
 }
 
-std::string RowSampler::kept_rows(std::string const& file) const {
-  std::string const head = header();
-  std::string kept;
-  if (!file.starts_with(head)) return kept;
-  for (std::size_t at = head.size(), end; (end = file.find('\n', at)) != std::string::npos; at = end + 1) {
-    Real const time = std::strtod(file.c_str() + at, nullptr);
-    if (std::llround(time / interval_) >= next_) break;
-    kept.append(file, at, end + 1 - at);
-  }
-  return kept;
-}
-
 std::vector<Real> RowSampler::store() const {
-  std::vector<Real> all{interval_, time_, static_cast<Real>(next_)};
+  std::vector<Real> all{samples_.interval(), time_, static_cast<Real>(samples_.next())};
   for (auto const* part : {&last_, &lowest_, &highest_}) all.insert(all.end(), part->begin(), part->end());
   all.resize(stored_size(), 0);
   return all;
 }
 
 bool RowSampler::restore(std::span<Real const> stored) {
-  if (stored.size() != stored_size() || stored[0] != interval_) return false;
+  if (stored.size() != stored_size() || stored[0] != samples_.interval()) return false;
   std::size_t const n = columns_.size();
   auto part = [&](std::size_t k) {
     auto const from = stored.subspan(3 + k * n, n);
@@ -77,7 +56,7 @@ bool RowSampler::restore(std::span<Real const> stored) {
   };
   started_ = true;
   time_ = stored[1];
-  next_ = static_cast<std::int64_t>(stored[2]);
+  samples_.go_on_at(static_cast<std::int64_t>(stored[2]));
   last_ = part(0), lowest_ = part(1), highest_ = part(2);
   return true;
 }

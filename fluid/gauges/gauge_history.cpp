@@ -3,13 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 
 namespace brisance::fluid {
 namespace {
-
-/// Sampling times and steps that end on them agree to rounding.
-constexpr Real rounding = 1e-12;
 
 /// Integral of the positive part of a line from a to b over dt.
 Real positive_part(Real a, Real b, Real dt) {
@@ -25,8 +21,8 @@ Real crossing(Real t0, Real a, Real t1, Real b, Real level) { return t0 + (level
 }  // namespace
 
 GaugeHistory::GaugeHistory(GaugeConfig const& gauge, FlowConfig const& flow, int dimension)
-    : position_(gauge.position),
-      interval_(gauge.interval),
+    : SampledSeries(gauge.interval),
+      position_(gauge.position),
       ambient_(flow.ambient.pressure),
       threshold_(gauge.arrival_pressure.value_or(0.01 * flow.ambient.pressure)),
       gas_constant_(flow.gas.gas_constant),
@@ -66,7 +62,7 @@ void GaugeHistory::start(Real time, GaugeValue const& value, std::string& rows) 
   time_ = time;
   last_ = value;
   figures_ = {};
-  next_ = static_cast<std::int64_t>(std::ceil(time / interval_ * (1 - rounding)));
+  samples_.start(time);
   bool const fluid = value.fluid_share > 0;
   if (fluid) {
     Real const o = overpressure(value);
@@ -74,14 +70,14 @@ void GaugeHistory::start(Real time, GaugeValue const& value, std::string& rows) 
     if (std::abs(o) >= threshold_) figures_.arrival = time;
     if (o >= threshold_) figures_.phase_start = time;
   }
-  if (sampling_time(next_) <= time * (1 + rounding)) row(sampling_time(next_++), value, 0, 0, rows);
+  if (auto const t = samples_.take(time)) row(*t, value, 0, 0, rows);
 }
 
 void GaugeHistory::add(Real time, GaugeValue const& value, std::string& rows) {
   bool const fluid = last_.fluid_share > 0 && value.fluid_share > 0;
   Real const length = time - time_, o0 = overpressure(last_), o1 = overpressure(value);
-  for (; sampling_time(next_) <= time * (1 + rounding); ++next_) {
-    Real const t = sampling_time(next_), w = clamp((t - time_) / length, 0, 1);
+  while (auto const t = samples_.take(time)) {
+    Real const w = clamp((*t - time_) / length, 0, 1);
     GaugeValue const here = between(last_, value, w);
     Real impulse = figures_.impulse, positive = figures_.positive_impulse;
     if (fluid) {
@@ -89,7 +85,7 @@ void GaugeHistory::add(Real time, GaugeValue const& value, std::string& rows) {
       impulse += 0.5 * (o0 + o) * part;
       positive += positive_part(o0, o, part);
     }
-    row(t, here, impulse, positive, rows);
+    row(*t, here, impulse, positive, rows);
   }
   if (fluid) {
     follow(time_, o0, time, o1);
@@ -122,24 +118,12 @@ void GaugeHistory::follow(Real t0, Real o0, Real t1, Real o1) {
   if (o1 <= 0) f.phase_end = o0 > 0 ? crossing(t0, o0, t1, o1, 0) : t0;
 }
 
-std::string GaugeHistory::kept_rows(std::string const& file) const {
-  std::string const head = header();
-  std::string kept;
-  if (!file.starts_with(head)) return kept;
-  for (std::size_t at = head.size(), end; (end = file.find('\n', at)) != std::string::npos; at = end + 1) {
-    Real const time = std::strtod(file.c_str() + at, nullptr);
-    if (std::llround(time / interval_) >= next_) break;
-    kept.append(file, at, end + 1 - at);
-  }
-  return kept;
-}
-
-std::array<Real, GaugeHistory::stored_size> GaugeHistory::store() const {
+std::vector<Real> GaugeHistory::store() const {
   GaugeFigures const& f = figures_;
   return {position_.x,
           position_.y,
           position_.z,
-          interval_,
+          samples_.interval(),
           time_,
           last_.density,
           last_.pressure,
@@ -147,7 +131,7 @@ std::array<Real, GaugeHistory::stored_size> GaugeHistory::store() const {
           last_.velocity.y,
           last_.velocity.z,
           last_.fluid_share,
-          static_cast<Real>(next_),
+          static_cast<Real>(samples_.next()),
           f.arrival,
           f.peak,
           f.peak_time,
@@ -159,12 +143,12 @@ std::array<Real, GaugeHistory::stored_size> GaugeHistory::store() const {
           f.positive_impulse};
 }
 
-bool GaugeHistory::restore(std::array<Real, stored_size> const& s) {
-  if (Vec3{s[0], s[1], s[2]} != position_ || s[3] != interval_) return false;
+bool GaugeHistory::restore(std::span<Real const> s) {
+  if (s.size() != stored_size() || Vec3{s[0], s[1], s[2]} != position_ || s[3] != samples_.interval()) return false;
   started_ = true;
   time_ = s[4];
   last_ = {s[5], s[6], {s[7], s[8], s[9]}, s[10]};
-  next_ = static_cast<std::int64_t>(s[11]);
+  samples_.go_on_at(static_cast<std::int64_t>(s[11]));
   figures_ = {s[12], s[13], s[14], s[15], s[16], s[17], s[18], s[19], s[20]};
   return true;
 }

@@ -1,10 +1,10 @@
 // One gauge through time: rows at multiples of its interval, running impulses, and the figures of the wave that passed.
 #pragma once
-#include <array>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "core/model/sampled_series.hpp"
 #include "fluid/gauges/gauge_config.hpp"
 #include "fluid/gauges/gauge_stencil.hpp"
 
@@ -24,43 +24,32 @@ struct GaugeFigures {
 };
 
 /// Fed with the value after every step; everything in between is linear.
-class GaugeHistory {
+class GaugeHistory : public SampledSeries {
  public:
   GaugeHistory(GaugeConfig const& gauge, FlowConfig const& flow, int dimension);
 
-  std::string header() const;
+  std::string header() const override;
   /// The first value; appends the row of this time to `rows` if it is a multiple of the interval.
   void start(Real time, GaugeValue const& value, std::string& rows);
   /// The value one step later; appends the rows of all multiples of the interval up to it.
   void add(Real time, GaugeValue const& value, std::string& rows);
-  bool started() const { return started_; }
   GaugeFigures const& figures() const { return figures_; }
-  /// The complete lines of `file` below its header that were written before the present state; empty when the header
-  /// is another.
-  std::string kept_rows(std::string const& file) const;
-
-  /// Everything a restart needs. `restore` is false and does nothing when the gauge was another: moved, or sampled
-  /// differently.
-  static constexpr std::size_t stored_size = 21;
-  std::array<Real, stored_size> store() const;
-  bool restore(std::array<Real, stored_size> const& stored);
+  std::size_t stored_size() const override { return 21; }
+  std::vector<Real> store() const override;
+  bool restore(std::span<Real const> stored) override;
 
  private:
   Real overpressure(GaugeValue const& v) const { return v.pressure - ambient_; }
-  Real sampling_time(std::int64_t k) const { return static_cast<Real>(k) * interval_; }
   void row(Real time, GaugeValue const& v, Real impulse, Real positive, std::string& rows) const;
   void follow(Real t0, Real o0, Real t1, Real o1);
   void extremes(Real time, Real o);
 
   Vec3 position_;
-  Real interval_, ambient_, threshold_, gas_constant_;
+  Real ambient_, threshold_, gas_constant_;
   int dimension_;
   std::vector<std::string> quantities_;
 
-  bool started_ = false;
-  Real time_ = 0;
   GaugeValue last_;
-  std::int64_t next_ = 0;  ///< sampling time of the next row
   GaugeFigures figures_;
 };
 
