@@ -30,4 +30,11 @@ inline Real norm2(Vec3 const& a) { return dot(a, a); }
 inline Real norm(Vec3 const& a) { return std::sqrt(norm2(a)); }
 inline Vec3 normalized(Vec3 const& a) { return a / norm(a); }
 
+/// Does a place lie in a box, as far as the first `dimension` coordinates tell?
+inline bool in_box(Vec3 const& p, Vec3 const& low, Vec3 const& high, int dimension, Real slack = 0) {
+  for (int d = 0; d < dimension; ++d)
+    if (p[d] < low[d] - slack || p[d] > high[d] + slack) return false;
+  return true;
+}
+
 }  // namespace brisance

@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/base/errors.hpp"
+#include "core/base/place.hpp"
 
 namespace brisance::solid {
 namespace {
-
-std::string text(Vec3 const& p) {
-  char s[96];
-  std::snprintf(s, sizeof s, "(%.6g, %.6g, %.6g)", p.x, p.y, p.z);
-  return s;
-}
 
 /// Do all corners of a face lie in the box, to rounding?
 bool in_box(FaceSelection const& selection, Mesh const& mesh, FreeFace const& face) {
@@ -77,14 +71,15 @@ std::vector<FaceRef> select_faces(FaceSelection const& selection, Mesh const& me
     if (in_box(selection, mesh, face)) chosen.push_back({face.particle, face.face});
   }
   if (chosen.empty())
-    scene_error(at, load + " selects no face: none of the " + std::to_string(candidates) + " free boundary faces of " +
-                        (selection.group  ? "the physical surface \"" + *selection.group + "\""
-                         : selection.body ? "solid.body \"" + *selection.body + "\""
-                                          : "the solid") +
-                        (candidates > 0 ? ", with centres from " + text(low) + " to " + text(high) + " m," : "") +
-                        " lies with all its corners between low and high, has the normal asked for (within " +
-                        std::to_string(selection.within * 180 / std::acos(-1.0)) +
-                        " deg) and looks at the point `facing`. Make the box larger or drop a condition");
+    scene_error(at,
+                load + " selects no face: none of the " + std::to_string(candidates) + " free boundary faces of " +
+                    (selection.group  ? "the physical surface \"" + *selection.group + "\""
+                     : selection.body ? "solid.body \"" + *selection.body + "\""
+                                      : "the solid") +
+                    (candidates > 0 ? ", with centres from " + place_text(low) + " to " + place_text(high) + "," : "") +
+                    " lies with all its corners between low and high, has the normal asked for (within " +
+                    std::to_string(selection.within * 180 / std::acos(-1.0)) +
+                    " deg) and looks at the point `facing`. Make the box larger or drop a condition");
   std::sort(chosen.begin(), chosen.end());
   return chosen;
 }

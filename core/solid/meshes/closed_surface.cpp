@@ -1,4 +1,5 @@
 #include "core/solid/meshes/closed_surface.hpp"
+#include "core/base/place.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>

@@ -1,7 +1,6 @@
 #include "core/solid/meshes/element_mesh.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "parallel/error.hpp"
 
@@ -47,12 +46,6 @@ bool ElementMesh::in_group(MeshElement const& e, std::string const& name) const 
 
 void mesh_error(std::string const& path, int line, std::string const& what) {
   throw Error(Failure::scene, path + (line > 0 ? ":" + std::to_string(line) : std::string()) + ": " + what);
-}
-
-std::string place_text(Vec3 const& p) {
-  char s[96];
-  std::snprintf(s, sizeof s, "(%.6g, %.6g, %.6g) m", p.x, p.y, p.z);
-  return s;
 }
 
 }  // namespace brisance::solid

@@ -40,7 +40,5 @@ struct ElementMesh {
 
 /// Throws the scene error "path[:line]: what".
 [[noreturn]] void mesh_error(std::string const& path, int line, std::string const& what);
-/// "(x, y, z) m"
-std::string place_text(Vec3 const& p);
 
 }  // namespace brisance::solid

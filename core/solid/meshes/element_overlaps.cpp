@@ -1,6 +1,7 @@
 // Elements of a body that lie in each other without sharing nodes.
 #include <algorithm>
 
+#include "core/base/place.hpp"
 #include "core/solid/meshes/elements.hpp"
 #include "core/solid/meshes/mesh_faults.hpp"
 

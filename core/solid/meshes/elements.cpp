@@ -1,4 +1,5 @@
 #include "core/solid/meshes/elements.hpp"
+#include "core/base/place.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,5 @@
 #include "core/solid/meshes/mesh_faults.hpp"
+#include "core/base/place.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,5 @@
 #include "core/solid/meshes/quality.hpp"
+#include "core/base/place.hpp"
 
 #include <fmt/format.h>
 
