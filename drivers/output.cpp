@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "drivers/solid_frame.hpp"
 #include "fluid/cell_fields.hpp"
 #include "fluid/rows.hpp"
 #include "parallel/error.hpp"
@@ -28,7 +29,7 @@ void Output::write() {
   if (!frames_.empty() && frames_.back().step == clock.step) return;
   std::string const name = frame_name(clock.step);
   if (world_.flow) write_fields(directory_ + "/fields/" + name);
-  if (world_.solid) write_solid(directory_ + "/solid/" + name);
+  if (world_.solid) write_solid_frame(world_, scene_.output.solid_fields, directory_ + "/solid/" + name);
   frames_.push_back({clock.step, clock.time});
   write_series();
   add_to_tables();
@@ -101,60 +102,6 @@ void Output::write_fields(std::string const& path) {
   file.close();
 }
 
-void Output::write_solid(std::string const& path) {
-  // Polygons of the particles' faces. Points, faces and particles are rows numbered by global ids: no rank shows.
-  solid::Mesh const& mesh = *world_.mesh;
-  solid::Solid const& solid = *world_.solid;
-  std::vector<Plan::ParticleField> const& fields = world_.plan.particle_fields();
-  std::vector<std::vector<double>> of_particle(fields.size()), of_face(fields.size());
-  for (std::size_t n = 0; n < fields.size(); ++n) {
-    of_particle[n].resize(static_cast<std::size_t>(solid.owned()));
-    fields[n].fill(of_particle[n]);
-  }
-  std::int64_t points = 0, entries = 0, faces = 0;
-  std::vector<double> xyz, velocity;
-  std::vector<std::int64_t> topology, particle, body;
-  std::vector<parallel::Range> point_rows, entry_rows, face_rows;
-  for (GlobalId p = 0; p < mesh.size(); ++p) {
-    solid::Polyhedron const& shape = mesh.shape(p).polyhedron;
-    auto const nv = static_cast<std::int64_t>(shape.vertices.size());
-    std::int64_t ne = 0;
-    for (auto const& face : shape.faces) ne += 2 + static_cast<std::int64_t>(face.size());
-    auto const nf = static_cast<std::int64_t>(shape.faces.size());
-    if (solid.owner(p) == world_.comm->rank()) {
-      auto const local = static_cast<std::size_t>(solid.local(p));
-      solid::Pose const& pose = solid.pose()[local];
-      for (Vec3 const& v : shape.vertices) {
-        Vec3 const x = pose.x + rotate(pose.q, v);
-        xyz.insert(xyz.end(), {x.x, x.y, x.z});
-      }
-      Vec3 const u = solid.motion()[local].v;
-      for (auto const& face : shape.faces) {
-        topology.push_back(3);
-        topology.push_back(static_cast<std::int64_t>(face.size()));
-        for (int const v : face) topology.push_back(points + v);
-        particle.push_back(p);
-        body.push_back(mesh.particle(p).body);
-        velocity.insert(velocity.end(), {u.x, u.y, u.z});
-        for (std::size_t n = 0; n < fields.size(); ++n) of_face[n].push_back(of_particle[n][local]);
-      }
-      point_rows.push_back({points, nv});
-      entry_rows.push_back({entries, ne});
-      face_rows.push_back({faces, nf});
-    }
-    points += nv, entries += ne, faces += nf;
-  }
-  parallel::ArchiveWriter file(*world_.comm, path);
-  file.rows("points", points, 3, point_rows, xyz);
-  file.rows_int("topology", entries, 1, entry_rows, topology);
-  file.rows_int("particle", faces, 1, face_rows, particle);
-  file.rows_int("body", faces, 1, face_rows, body);
-  file.rows("velocity", faces, 3, face_rows, velocity);
-  for (std::size_t n = 0; n < fields.size(); ++n) file.rows(fields[n].name, faces, 1, face_rows, of_face[n]);
-  file.attribute("time", world_.simulation->clock().time);
-  file.close();
-}
-
 void Output::write_series() {
   std::string frames;
   for (Frame const& f : frames_) frames += fmt::format("{} {:.17g}\n", f.step, f.time);
@@ -191,38 +138,9 @@ void Output::write_series() {
     parallel::write_text_atomically(*world_.comm, directory_ + "/fields.xdmf", series(grids));
   }
   if (world_.solid) {
-    std::int64_t points = 0, entries = 0, faces = 0;
-    for (GlobalId p = 0; p < world_.mesh->size(); ++p) {
-      solid::Polyhedron const& shape = world_.mesh->shape(p).polyhedron;
-      points += static_cast<std::int64_t>(shape.vertices.size());
-      faces += static_cast<std::int64_t>(shape.faces.size());
-      for (auto const& face : shape.faces) entries += 2 + static_cast<std::int64_t>(face.size());
-    }
     std::string grids;
-    for (Frame const& f : frames_) {
-      std::string const file = "solid/" + frame_name(f.step);
-      grids += fmt::format(
-          "   <Grid Name=\"solid\"><Time Value=\"{:.9g}\"/>\n    <Topology TopologyType=\"Mixed\" "
-          "NumberOfElements=\"{}\"><DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"8\" "
-          "Dimensions=\"{}\">{}:/topology"
-          "</DataItem></Topology>\n    <Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\" Precision=\"8\" "
-          "Dimensions=\"{} 3\">{}:/points</DataItem></Geometry>\n",
-          f.time, faces, entries, file, points, file);
-      for (char const* name : {"particle", "body"})
-        grids += fmt::format(
-            "    <Attribute Name=\"{}\" Center=\"Cell\"><DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"8\" "
-            "Dimensions=\"{}\">{}:/{}</DataItem></Attribute>\n",
-            name, faces, file, name);
-      for (Plan::ParticleField const& field : world_.plan.particle_fields())
-        grids += fmt::format(
-            "    <Attribute Name=\"{0}\" Center=\"Cell\"><DataItem Format=\"HDF\" Precision=\"8\" "
-            "Dimensions=\"{1}\">{2}:/{0}</DataItem></Attribute>\n",
-            field.name, faces, file);
-      grids += fmt::format(
-          "    <Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Cell\"><DataItem Format=\"HDF\" "
-          "Precision=\"8\" Dimensions=\"{} 3\">{}:/velocity</DataItem></Attribute>\n   </Grid>\n",
-          faces, file);
-    }
+    for (Frame const& f : frames_)
+      grids += solid_frame_xdmf(world_, scene_.output.solid_fields, "solid/" + frame_name(f.step), f.time);
     parallel::write_text_atomically(*world_.comm, directory_ + "/solid.xdmf", series(grids));
   }
 }

@@ -24,7 +24,6 @@ class Output {
     double time;
   };
   void write_fields(std::string const& name);
-  void write_solid(std::string const& name);
   void write_series();
   void start_tables();
   void add_to_tables();

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/base/errors.hpp"
+#include "core/solid/particle_fields.hpp"
 #include "fluid/cell_fields.hpp"
 
 namespace brisance::drivers {
@@ -70,6 +71,11 @@ void OutputConfig::keys(Keys<OutputConfig>& k) {
     "fields of the fluid to write; schlieren: exp(-10 |grad rho| / max), 1 in uniform gas; vorticity: 2D its z "
     "component")
       .words = fluid::cell_field_names();
+  k("solid_fields", &OutputConfig::solid_fields, "",
+    "fields of the solid to write, beside those that its effects add (fragment, damage, plastic strain): of the "
+    "particles' centres and their rotation vector, and the mean stress of each particle (the loads of a fluid on its "
+    "faces do not count); tension is positive")
+      .words = solid::particle_field_names();
   k("gauge", &OutputConfig::gauge, "", "points where the gas is watched; each writes gauges/NAME.csv");
   k("solid_gauge", &OutputConfig::solid_gauge, "",
     "particles, surface points, supports and sections of the solid that are watched; each writes gauges/NAME.csv");

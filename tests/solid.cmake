@@ -3,8 +3,7 @@ brisance_test(solid_unit
           unit/core/solid/link_law_test.cpp unit/core/solid/surface_test.cpp unit/core/solid/solid_test.cpp
           unit/core/solid/plasticity_test.cpp
           unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
-          unit/core/solid/contact_test.cpp unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
-          unit/core/solid/sleep_test.cpp unit/core/solid/contact_test.cpp unit/core/solid/fracture/criteria_test.cpp unit/core/solid/fracture/weibull_test.cpp
+          unit/core/solid/contact_test.cpp unit/core/solid/sleep_test.cpp unit/core/solid/particle_fields_test.cpp
           unit/core/solid/fracture/link_laws_test.cpp unit/core/solid/fracture/fragments_test.cpp
   LINKS brisance::solid LABELS unit)
 brisance_test(solid_meshes

@@ -1,5 +1,6 @@
 // Plain 3x3 matrices (row major) and unit quaternions for rigid particles.
 #pragma once
+#include <cmath>
 #include "core/base/vec3.hpp"
 
 namespace brisance {
@@ -48,6 +49,12 @@ inline Vec3 rotate(Quaternion const& q, Vec3 const& r) {
 }
 inline Mat3 matrix(Quaternion const& q) {
   return transpose({{rotate(q, {1, 0, 0}), rotate(q, {0, 1, 0}), rotate(q, {0, 0, 1})}});
+}
+/// Rotation vector of a turn, rad.
+inline Vec3 rotation_vector(Quaternion const& q) {
+  Real const sine = norm(q.v), sign = q.w < 0 ? -1 : 1;
+  if (sine == 0) return {};
+  return (2 * sign * std::atan2(sine, sign * q.w) / sine) * q.v;
 }
 
 }  // namespace brisance

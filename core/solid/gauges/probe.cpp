@@ -12,13 +12,6 @@ namespace {
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 Vec3 vector(Triple<double> const& t) { return {t.x, t.y, t.z}; }
 
-/// Rotation vector of a turn, rad.
-Vec3 rotation_vector(Quaternion const& q) {
-  Real const sine = norm(q.v), sign = q.w < 0 ? -1 : 1;
-  if (sine == 0) return {};
-  return (2 * sign * std::atan2(sine, sign * q.w) / sine) * q.v;
-}
-
 }  // namespace
 
 Probe::Probe(SolidGaugeConfig const& gauge, Solid const& solid)
