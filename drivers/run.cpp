@@ -213,6 +213,8 @@ int execute(Job const& job, parallel::Comm& comm) {
       "{:.1e}, energy {:.1e}; digest {}",
       run.exit, simulation.clock().step, simulation.clock().time, run.wall_s, c.mass,
       max(c.momentum.x, max(c.momentum.y, c.momentum.z)), c.exchange_energy, c.energy, simulation.digest().hex());
+  for (auto const& tell : world->plan.findings())
+    if (std::string const line = tell(); !line.empty()) spdlog::warn("{}", line);
   if (stopped) spdlog::info("resume with: brisance restart {}", job.directory);
   return stopped ? exit_stopped : 0;
 }

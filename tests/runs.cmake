@@ -137,3 +137,8 @@ add_test(NAME stop_by_signal COMMAND ${PROJECT_SOURCE_DIR}/tests/support/stop_by
 add_test(NAME fresh_run COMMAND ${PROJECT_SOURCE_DIR}/tests/support/fresh_run.sh ${program} ${runs}/fresh
                                 ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml)
 set_tests_properties(truncated_checkpoint full_disk stop_by_signal fresh_run PROPERTIES LABELS restart TIMEOUT 300)
+
+# A limit of the law stops the run and says which particle, why, and what to do.
+brisance_expect(overstrained CODE 3 LABELS stability
+                MESSAGE "plastic strain of particle [0-9]+ at .* has passed 0.9.*failure strain.*step [0-9]+, t = "
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/overstrained.toml --out ${runs}/overstrained)

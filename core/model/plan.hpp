@@ -74,6 +74,8 @@ class Plan {
   }
   /// What a user should know of the effect before the run: a line each, the same on every rank.
   void remark(std::string text) { remarks_.push_back(std::move(text)); }
+  /// What a user should know of the effect after the run. Collective: a line on rank 0, or nothing.
+  void finding(std::function<std::string()> tell) { findings_.push_back(std::move(tell)); }
   /// During Stage::fracture, on all ranks alike: the law of force has changed, so Stage::forces and Stage::contact run
   /// once more before the next step.
   void ask_for_forces() { forces_asked_ = true; }
@@ -87,6 +89,7 @@ class Plan {
   std::vector<Table> const& tables() const { return tables_; }
   std::vector<ParticleField> const& particle_fields() const { return particle_fields_; }
   std::vector<std::string> const& remarks() const { return remarks_; }
+  std::vector<std::function<std::string()>> const& findings() const { return findings_; }
   std::vector<EffectCost>& effects() { return effects_; }
   std::vector<EffectCost> const& effects() const { return effects_; }
 
@@ -100,6 +103,7 @@ class Plan {
   std::vector<Table> tables_;
   std::vector<ParticleField> particle_fields_;
   std::vector<std::string> remarks_;
+  std::vector<std::function<std::string()>> findings_;
   bool forces_asked_ = false;
 };
 

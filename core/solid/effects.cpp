@@ -101,11 +101,14 @@ void refuse_damage(SolidConfig const& config, Location const& at, std::string co
       what + " damages links, and solid.links.volumetric = \"consistent\" needs links that stay whole: use \"basic\".");
 }
 
-/// Images of particles carry neither plastic strain nor gradients, and absorbing faces solve for elastic particles with
-/// the basic strain.
-void refuse_partners(SolidConfig const& config, Mesh const& mesh, Location const& at, std::string const& what) {
+/// Absorbing faces solve for elastic particles with the basic strain.
+void refuse_absorbing(SolidConfig const& config, Location const& at, std::string const& what) {
   require(config.absorbing.empty(), at,
           what + " does not go with solid.absorbing yet: enlarge the body instead of absorbing waves at its faces.");
+}
+
+/// Images of particles carry no gradients.
+void refuse_images(Mesh const& mesh, Location const& at, std::string const& what) {
   for (FarSide const& side : mesh.far_sides)
     require(side.kind == FarSide::Kind::moving_wall, at,
             what + " does not go with symmetry planes and periodic sides: model the whole body.");
@@ -113,8 +116,10 @@ void refuse_partners(SolidConfig const& config, Mesh const& mesh, Location const
 
 std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Solid& solid, parallel::Comm& comm) {
   std::vector<std::unique_ptr<Effect>> effects;
-  if (config.links && config.links->volumetric == "consistent")
-    refuse_partners(config, solid.mesh(), config.at, "solid.links.volumetric = \"consistent\"");
+  if (config.links && config.links->volumetric == "consistent") {
+    refuse_absorbing(config, config.at, "solid.links.volumetric = \"consistent\"");
+    refuse_images(solid.mesh(), config.at, "solid.links.volumetric = \"consistent\"");
+  }
   if (!solid.mesh().motions.empty()) effects.push_back(std::make_unique<MovingSupports>(solid));
   if (!config.pressure.empty() || !config.traction.empty() || !config.blast.empty())
     effects.push_back(std::make_unique<SurfaceLoads>(config, solid));
@@ -125,7 +130,7 @@ std::vector<std::unique_ptr<Effect>> make_effects(SolidConfig const& config, Sol
   if (std::any_of(config.material.begin(), config.material.end(), yields)) {
     for (auto const& [name, material] : config.material) {
       if (!material.plasticity) continue;
-      refuse_partners(config, solid.mesh(), material.plasticity->at, "solid.material." + name + ".plasticity");
+      refuse_absorbing(config, material.plasticity->at, "solid.material." + name + ".plasticity");
       if (material.plasticity->failure)
         refuse_damage(config, material.plasticity->at, "solid.material." + name + ".plasticity.failure");
     }

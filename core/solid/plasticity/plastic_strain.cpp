@@ -1,6 +1,7 @@
 #include "core/solid/plasticity/plastic_strain.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "core/solid/links/link_blocks.hpp"
 
@@ -34,10 +35,11 @@ PlasticStrain::PlasticStrain(Mesh const& mesh, LinkStore const& links, std::span
       ids_(ids.begin(), ids.end()),
       mesh_link_(mesh_link.begin(), mesh_link.end()),
       particles_(ids.size()),
-      strain_(particles_ + 1),
-      changed_(particles_ + 1),
-      free_faces_(particles_ + 1),
+      strain_(particles_),
+      changed_(particles_),
+      free_faces_(particles_),
       blocks_(links.records().size()) {
+  find_ends(ids);
   for (std::size_t k = 0; k < links.count(); ++k) {
     Link const& link = mesh.links[mesh_link_[k]];
     Vec3 const n = mesh.face(link.i, link.face_i).normal;
@@ -49,6 +51,24 @@ PlasticStrain::PlasticStrain(Mesh const& mesh, LinkStore const& links, std::span
   for (std::size_t p = 0; p < particles_; ++p) {
     slab_.push_back({mesh.shape(ids_[p]).volume, mesh.material(ids_[p]).shear()});
     gather_free_faces(p);
+  }
+}
+
+void PlasticStrain::find_ends(std::span<GlobalId const> ids) {
+  std::map<GlobalId, Index> local;
+  if (mesh_.has(FarSide::Kind::shifted))
+    for (std::size_t p = 0; p < ids.size(); ++p) local[ids[p]] = static_cast<Index>(p);
+  for (std::size_t k = 0; k < links_.count(); ++k) {
+    Link const& link = mesh_.links[mesh_link_[k]];
+    Index const entry = links_.end_j(k);
+    mirrored_.push_back(mesh_.is_mirror(link));
+    if (link.j == Link::wall || link.far < 0) {
+      strained_end_.push_back(link.j == Link::wall ? -1 : entry);
+      continue;
+    }
+    strained_end_.push_back(local.at(link.j));
+    auto const known = [&](Image const& image) { return image.entry == entry; };
+    if (std::none_of(images_.begin(), images_.end(), known)) images_.push_back({entry, local.at(link.j)});
   }
 }
 
@@ -77,8 +97,8 @@ void PlasticStrain::free_share(std::size_t link, Real lost) {
   if (lost_.empty()) lost_.assign(links_.count(), 0);
   lost_[link] = lost;
   links_changed_ = true;
-  for (Index const end : {links_.end_i(link), links_.end_j(link)})
-    if (at(end) < particles_) gather_free_faces(at(end));
+  for (Index const end : {links_.end_i(link), strained_end_[link]})
+    if (end >= 0) gather_free_faces(at(end));
 }
 
 void PlasticStrain::follow() {
@@ -87,10 +107,15 @@ void PlasticStrain::follow() {
     LinkBlock const& ends = links_.records()[b];
     OffsetBlock& block = blocks_[b];
     for (std::size_t k = 0; k < lanes && b * lanes + k < links_.count(); ++k) {
-      std::size_t const i = at(ends.i[k]), j = std::min(at(ends.j[k]), particles_);
-      if (!changed_[i] && !changed_[j]) continue;
+      std::size_t const i = at(ends.i[k]);
+      Index const j = strained_end_[b * lanes + k];
+      if (!changed_[i] && (j < 0 || !changed_[at(j)])) continue;
       Vec3 const n{block.field[0][k], block.field[1][k], block.field[2][k]};
-      Vec3 const offset = (block.field[3][k] * strain_[i] + block.field[4][k] * strain_[j]) * n;
+      Vec3 const own = (block.field[3][k] * strain_[i]) * n;
+      // The image shears the other way: what is left is twice the part along the normal.
+      Vec3 const offset = mirrored_[b * lanes + k] ? (2 * dot(n, own)) * n
+                          : j < 0                  ? own
+                                                   : own + (block.field[4][k] * strain_[at(j)]) * n;
       for (std::size_t d = 0; d < 3; ++d) block.field[5 + d][k] = offset[static_cast<int>(d)];
       block.strained = links_changed_ = true;
     }
@@ -164,6 +189,8 @@ void PlasticStrain::sum_links(std::span<Pose const> pose) {
       add(b.j[k], blocks_[n].field[4][k], k);
     }
   }
+  for (Image const& image : images_)
+    for (std::size_t c = 0; c < 6; ++c) link_sum_[at(image.of)].c[c] += link_sum_[at(image.entry)].c[c];
   links_changed_ = false;
 }
 

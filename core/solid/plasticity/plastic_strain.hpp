@@ -50,6 +50,7 @@ class PlasticStrain {
   std::size_t bytes() const;
 
  private:
+  void find_ends(std::span<GlobalId const> ids);
   void sum_links(std::span<Pose const> pose);
   struct alignas(32) OffsetBlock {
     std::array<std::array<double, lanes>, 8> field{};  // normal, reach_i, reach_j, offset
@@ -72,8 +73,15 @@ class PlasticStrain {
   std::vector<GlobalId> ids_;
   std::vector<std::size_t> mesh_link_;
   std::size_t particles_;
-  std::vector<Symmetric> strain_;  // one more than particles: the wall
-  std::vector<char> changed_;      // since the last follow
+  std::vector<Symmetric> strain_;
+  std::vector<char> changed_;        // since the last follow
+  std::vector<Index> strained_end_;  // of each link, the particle with the strain of its second end; -1: none
+  std::vector<char> mirrored_;       // of each link: its second end is the mirror image of the first
+  /// Images shifted by a period: the entry of the poses and the particle it is an image of.
+  struct Image {
+    Index entry, of;
+  };
+  std::vector<Image> images_;
   char some_changed_ = 0;
   std::vector<Symmetric> free_faces_;  // sum of S d n n over free faces and free shares of links, m3
   std::vector<Real> lost_;             // of the links; empty while all are whole

@@ -1,14 +1,22 @@
 #include "core/solid/plasticity/plasticity.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "core/base/errors.hpp"
+#include "core/base/place.hpp"
 
 namespace brisance::solid {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 constexpr std::size_t row = 7;  // strain 6, damage
+/// The law is linear in the plastic strain: at this size its volume is off by some per cent, and at a principal value
+/// of -1 a particle has no thickness left.
+constexpr Real large_strain = 0.3, largest_strain = 0.9;
+
+/// The equivalent of von Mises: e_xx of a bar that is pulled, 1.
+Real size(Symmetric const& strain) { return equivalent(strain) / 1.5; }
 
 }  // namespace
 
@@ -85,6 +93,7 @@ void Plasticity::flow(Real dt) {
       state.strain = state.strain + flow.strain;
       state.p += flow.dp;
       yielding_.push_back({p, flow});
+      if (size(state.strain) > largest_strain) overstrained_ = p;
     }
     if (!law->fails() || (flow.dp == 0 && !(law->damaged_at_rest() && state.p > 0))) continue;
     Real const shear = solid_.mesh().material(solid_.id(p)).shear();
@@ -115,7 +124,7 @@ bool Plasticity::fail() {
   std::vector<std::size_t> breaking, counted;
   std::vector<Index> touched;
   for (std::size_t k = 0; k < links.count(); ++k) {
-    Index const i = links.end_i(k), j = links.end_j(k);
+    Index const i = links.end_i(k), j = solid_.end_j(k);
     if (solid_.intact(k) == 0 || !(spent(i) || spent(j))) continue;
     breaking.push_back(k);
     if (i < solid_.owned()) counted.push_back(k);
@@ -136,6 +145,33 @@ bool Plasticity::fail() {
   return !breaking.empty();
 }
 
+Verdict Plasticity::judge() const {
+  if (overstrained_ < 0) return {};
+  return {false, "solid.plasticity: the plastic strain of particle " + std::to_string(solid_.id(overstrained_)) +
+                     " at " + place_text(solid_.pose()[at(overstrained_)].x) + " has passed " +
+                     std::to_string(largest_strain).substr(0, 3) +
+                     ", where the law, linear in the strain, turns particles inside out. Give the material a failure "
+                     "strain (plasticity.failure), a stronger hardening, or a slower impact."};
+}
+
+std::string Plasticity::find_large_strain() const {
+  std::array<double, 1> most{0}, id{-1};
+  GlobalId mine = -1;
+  for (std::size_t p = 0; p < state_.size(); ++p)
+    if (Real const s = size(state_[p].strain); s > most[0]) most[0] = s, mine = solid_.id(static_cast<Index>(p));
+  Real const here = most[0];
+  comm_.max(most);
+  if (here == most[0]) id[0] = static_cast<double>(mine);
+  comm_.max(id);
+  if (most[0] < large_strain || comm_.rank() != 0) return "";
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "solid.plasticity: plastic strains reach %.2g (particle %.0f); the law is linear in them and good for "
+                "less than %.1f: take the shape there as a sketch",
+                most[0], id[0], large_strain);
+  return text;
+}
+
 void Plasticity::join(Plan& plan) {
   plan.effect("solid.plasticity", [this] {
     return solid_.plastic().bytes() + state_.size() * (sizeof(PlasticState) + 2 * sizeof(Symmetric)) +
@@ -143,6 +179,8 @@ void Plasticity::join(Plan& plan) {
   });
   plan.at(Stage::drift, [this](Clock const& c) { flow(c.dt); });
   plan.at(Stage::forces, [this](Clock const&) { settle(); });
+  plan.health([this](Clock const&) { return judge(); });
+  plan.finding([this] { return find_large_strain(); });
   if (fails_)
     plan.at(Stage::fracture, [this, &plan](Clock const&) {
       std::uint64_t broke = fail() ? 1 : 0;

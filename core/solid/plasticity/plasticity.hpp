@@ -39,6 +39,8 @@ class Plasticity : public Effect {
   PlasticLaw const* law_of(Index particle) const;
   void spread();
   void set_threshold(Index particle);
+  Verdict judge() const;
+  std::string find_large_strain() const;
   void keep(Plan& plan);
   std::vector<double> pack() const;
   void unpack(std::span<double const> rows);
@@ -54,6 +56,7 @@ class Plasticity : public Effect {
   std::vector<double> rows_;               // strain and damage of all local particles, for ghosts
   std::vector<Yielding> yielding_;         // since the last settle
   std::vector<Real> threshold_;            // square of the yield stress at rest over 3/2, owned; -1: elastic
+  Index overstrained_ = -1;                // a particle beyond what the law can bear
   parallel::ExactSum dissipated_;
   std::int64_t links_broken_ = 0;
 };

@@ -28,6 +28,7 @@ std::vector<double> Plasticity::pack() const {
 }
 
 void Plasticity::unpack(std::span<double const> rows) {
+  overstrained_ = -1;
   for (std::size_t p = 0; p < state_.size(); ++p) {
     double const* in = rows.data() + p * PlasticState::columns;
     std::copy_n(in, 6, state_[p].strain.c.begin());
@@ -47,6 +48,7 @@ void Plasticity::keep(Plan& plan) {
     saved->stress = stress_;
   };
   keep.restore = [this, saved] {
+    overstrained_ = -1;
     state_ = saved->state;
     stress_ = saved->stress;
     for (Index p = 0; p < solid_.owned(); ++p) set_threshold(p);

@@ -70,6 +70,38 @@ TEST(Plasticity, UniaxialBarHardensAndUnloads) {
     }
 }
 
+/// A quarter of a bar with two planes of symmetry flows as the whole bar does.
+TEST(Plasticity, AQuarterBetweenMirrorsFlowsAsTheWhole) {
+  PlasticityConfig linear;
+  linear.yield_stress = 1e-3;
+  linear.linear = {0.03};
+  auto const comm = parallel::serial();
+  SolidConfig const whole = bar({6, 4, 4}, 0.3, linear);
+  SolidConfig quarter = bar({6, 2, 2}, 0.3, linear);
+  quarter.body[0].symmetry = {{{-1, 2, -1}, {7, 2, 5}}, {{-1, -1, 2}, {7, 5, 2}}};
+  DuctileSolid a(whole, 3, 1e9, *comm), b(quarter, 3, 1e9, *comm);
+  a.start();
+  b.start();
+  for (int n = 0; n < 400; ++n)
+    for (DuctileSolid* body : {&a, &b}) {
+      body->pull(1.4e-3 * min(1.0, n / 100.0));
+      body->simulation.pair();
+    }
+  EXPECT_EQ(a.simulation.clock().time, b.simulation.clock().time);
+  Real worst = 0, flowed = 0;
+  for (Index q = 0; q < b.solid.owned(); ++q)
+    for (Index p = 0; p < a.solid.owned(); ++p) {
+      if (norm(a.mesh.particle(p).centre - b.mesh.particle(q).centre) > 1e-9) continue;
+      auto const i = static_cast<std::size_t>(p), j = static_cast<std::size_t>(q);
+      worst = max(worst, norm(a.solid.pose()[i].x - b.solid.pose()[j].x));
+      worst = max(worst, std::abs(a.plasticity().state()[i].p - b.plasticity().state()[j].p));
+      flowed = max(flowed, a.plasticity().state()[i].p);
+    }
+  EXPECT_GT(flowed, 1e-3);
+  EXPECT_TRUE(evidence::at_most("S30", "quarter of a bar between mirrors", "nu 0.3",
+                                "largest difference from the whole", worst, 1e-11));
+}
+
 /// A bar one cell wide, brought slowly from one stress to the next.
 class Testing {
  public:
@@ -237,13 +269,21 @@ Real slope(DuctileSolid& body, Change change) {
   return value;
 }
 
+/// What stands around the block of the test of the gradient.
+enum class Around { nothing, wall_and_damage, symmetry, period };
+
 TEST(Plasticity, ForcesAndDrivingStressAreTheGradientOfTheEnergy) {
   for (bool voronoi : {false, true})
     for (Real nu : {-0.6, 0.3, 0.48})
-      for (bool damaged : {false, true}) {
+      for (Around around : {Around::nothing, Around::wall_and_damage, Around::symmetry, Around::period}) {
+        bool const damaged = around == Around::wall_and_damage;
+        if (voronoi && around == Around::period) continue;
         auto const comm = parallel::serial();
         SolidConfig config = block(nu, voronoi);
-        if (!damaged) config.body[0].clamp.clear();  // so that the sums vanish
+        BodyConfig& box = config.body[0];
+        if (!damaged) box.clamp.clear();  // so that the sums vanish
+        if (around == Around::symmetry) box.symmetry = {{{0, -1, -1}, {0, 4, 4}}, {{-1, 0, -1}, {4, 0, 4}}};
+        if (around == Around::period) box.periodic = {"y", "z"};
         DuctileSolid body(config, 3, 1, *comm);
         Solid& solid = body.solid;
         Random random(11);
@@ -295,12 +335,16 @@ TEST(Plasticity, ForcesAndDrivingStressAreTheGradientOfTheEnergy) {
           force += exact[at].force - loads[at].force;
           torque += exact[at].torque - loads[at].torque + cross(solid.pose()[at].x, exact[at].force - loads[at].force);
         }
-        std::string const variant = std::string("plastic ") + (damaged ? "damaged " : "") +
-                                    (voronoi ? "voronoi nu " : "cartesian nu ") + std::to_string(nu).substr(0, 5);
+        std::string const with = damaged                      ? "damaged "
+                                 : around == Around::symmetry ? "two mirrors "
+                                 : around == Around::period   ? "periodic "
+                                                              : "";
+        std::string const variant =
+            "plastic " + with + (voronoi ? "voronoi nu " : "cartesian nu ") + std::to_string(nu).substr(0, 5);
         EXPECT_TRUE(evidence::at_most("S1", "gradient", variant, "max |F + grad E| / max |F|", error / scale, 1e-8));
         EXPECT_TRUE(evidence::at_most("S1", "gradient", variant, "max |V s + dE/de| / max |V s|",
                                       stress_error / stress_scale, 1e-8));
-        if (damaged) continue;
+        if (around != Around::nothing) continue;
         EXPECT_TRUE(evidence::at_most("S3", "balance", variant, "|sum F| / max |F|", norm(force) / scale, 1e-13));
         EXPECT_TRUE(
             evidence::at_most("S3", "balance", variant, "|sum x x F + M| / max |F|", norm(torque) / scale / 3, 1e-13));
