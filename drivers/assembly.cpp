@@ -189,10 +189,6 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (coupled && scene.fluid->products)
     scene_error(scene.fluid->products->at,
                 "fluid.products: cut cells do not carry products yet; use charges of model \"balloon\" beside solids.");
-  if (coupled && scene.solid->contact)
-    scene_error(scene.solid->contact->at,
-                "solid.contact and coupling.cut_cells do not go together yet: the gas between bodies that touch has no "
-                "cells. Leave contact out beside a fluid, or cut_cells out where the gas does not matter");
   if (scene.solid) {
     w.mesh = std::make_unique<solid::Mesh>(solid::build_mesh(*scene.solid, w.dimension));
     require_same_mesh(*w.mesh, comm);

@@ -13,6 +13,7 @@ brisance_same_digest(explosion-cylinder ${scenes}/explosion-cylinder.toml 60)
 brisance_same_digest(explosion-box-3d ${scenes}/explosion-box-3d.toml 24 --set fluid.block=24)
 brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40)
 brisance_same_digest(bursting-shell ${scenes}/bursting-shell.toml 80)
+brisance_same_digest(colliding-fragments ${scenes}/colliding-fragments.toml 330)
 brisance_same_digest(bodies-leave ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-leave.toml 240)
 brisance_same_digest(jwl-charge ${PROJECT_SOURCE_DIR}/tests/support/scenes/jwl-charge.toml 60)
 brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 60)
@@ -115,9 +116,6 @@ brisance_expect(mesh_group_missing CODE 2 LABELS unit ABSENT ${runs}/no-group
 
 brisance_expect(check_brick-wall CODE 0 LABELS unit MESSAGE "solid.contact +on.*contact +solid.contact.*372 particles, 828 links"
                 COMMAND ${program} check ${scenes}/brick-wall.toml --ranks 2)
-brisance_expect(scene_contact_in_a_gas CODE 2 LABELS unit ABSENT ${runs}/contact-gas
-                MESSAGE "solid.contact and coupling.cut_cells do not go together yet.*Leave contact out"
-                COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/contact-gas --set solid.contact.friction=0.3)
 
 brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)

@@ -148,7 +148,25 @@ class Merger {
           consider(j, score, best, best_score);
         }
     }
-    return best;
+    return best >= 0 ? best : nearest_fluid(group);
+  }
+
+  /// Gas that walls have shut in on all sides, as between bodies that collide, leaves for the nearest fluid.
+  Index nearest_fluid(Index group) {
+    Index const farthest =
+        sight_ == Sight::halo ? largest_group / 2 : *std::max_element(grid_.cells.begin(), grid_.cells.end());
+    for (Index distance = 1; distance <= farthest; ++distance) {
+      Index best = -1;
+      Real best_score = 0;
+      for (Index i = group; i >= 0; i = next_[at(i)])
+        for_shell(grid_, cell(i).cell, distance, [&](CellIndex n) {
+          Index const j = find(n);
+          if (j >= 0 && root(j) != group && cell(j).volume > covered_fraction * full_)
+            consider(j, cell(j).volume, best, best_score);
+        });
+      if (best >= 0) return best;
+    }
+    return -1;
   }
 
   bool mine(Index group) {
