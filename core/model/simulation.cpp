@@ -6,6 +6,11 @@
 #include "parallel/error.hpp"
 
 namespace brisance {
+namespace {
+
+constexpr Real smallest_retry_factor = 0x1p-20;
+
+}  // namespace
 
 // The `lag` coupling (theory/coupling.md section 5). Stages without tasks are empty loops.
 void Simulation::step() {
@@ -127,9 +132,11 @@ void Simulation::pair() {
     }
     ++statistics_.retries;
     statistics_.last_rejection = message;
-    require(halvings < 10, Failure::numerical,
-            message + " (step " + std::to_string(clock_.step) + ", t = " + std::to_string(clock_.time) +
-                " s, after 10 halvings of dt; lower the Courant number or refine the grid)");
+    // Pairs that each pass after some halvings, ever smaller ones, lead nowhere either.
+    require(halvings < 10 && retry_factor_ > smallest_retry_factor, Failure::numerical,
+            message + " (step " + std::to_string(clock_.step) + ", t = " + std::to_string(clock_.time) + " s, after " +
+                std::to_string(std::lround(-std::log2(retry_factor_))) +
+                " halvings of dt; lower the Courant number or refine the grid)");
     for (Plan::Keep const& k : plan_.kept()) k.restore();
     clock_ = start;
     ledger_ = ledger_start;

@@ -27,7 +27,7 @@ class Simulation {
   Simulation(Plan& plan, parallel::Comm& comm, TimeControl control) : plan_(plan), comm_(comm), control_(control) {}
 
   /// Collective. Advances by one pair; a pair in bad health is redone from its start with half the step.
-  /// Errors: Failure::numerical after 10 halvings, naming the place and the cause.
+  /// Errors: Failure::numerical after 10 halvings of one pair, or 20 of pairs in a row, naming the place and the cause.
   void pair();
   bool finished() const { return clock_.time >= control_.end_time; }
 
