@@ -9,7 +9,11 @@ rm -rf "$work" "$work.whole"
 "$program" run "$scene" --out "$work.whole" --steps 60 --quiet || fail "the whole run"
 "$program" run "$scene" --out "$work" --steps 60 --quiet &
 id=$!
-sleep 0.7
+for _ in $(seq 600); do # until it takes steps, however slow the machine
+  [[ -f $work/history.csv && $(wc -l <"$work/history.csv") -ge 2 ]] && break
+  kill -0 $id 2>/dev/null || break
+  sleep 0.1
+done
 kill -TERM $id 2>/dev/null
 wait $id
 code=$?
