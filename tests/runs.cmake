@@ -14,6 +14,7 @@ brisance_same_digest(explosion-box-3d ${scenes}/explosion-box-3d.toml 24 --set f
 brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40)
 brisance_same_digest(bursting-shell ${scenes}/bursting-shell.toml 80)
 brisance_same_digest(colliding-fragments ${scenes}/colliding-fragments.toml 330)
+brisance_same_digest(blast-bricks ${scenes}/blast-bricks.toml 40 --set "fluid.cells=[24, 18, 12]" --set fluid.block=6)
 brisance_same_digest(bodies-leave ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-leave.toml 240)
 brisance_same_digest(jwl-charge ${PROJECT_SOURCE_DIR}/tests/support/scenes/jwl-charge.toml 60)
 brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 60)

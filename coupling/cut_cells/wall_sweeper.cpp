@@ -241,15 +241,19 @@ void WallSweeper::close_reflecting_sides(Block& block, WallBlock& wall, int dire
         State removed = f;
         removed[1 + d] = 0;
         for (std::size_t q = 0; q < 5; ++q) f[q] -= removed[q];
-        if (removed == State{}) continue;
-        // The cell behind the side has let it through: a run that ends near the side is no mirror of itself.
         c[d] -= side;
-        if (!is_fluid(block, c[0], c[1], c[2])) continue;
+        CellIndex const first = block.first();
+        CellIndex const global{first[0] + c[0], first[1] + c[1], first[2] + c[2]};
+        // Bodies that overlap on the side leave it a negative area. With the pressure of the pieces in the cell, not
+        // that of gas that meets a wall, the cell stays closed and gas does not fall the faster for falling.
+        if (record_->aperture(global, direction, side) < 0) f[1 + d] = wall.pressure[d][wall.cell(c[0], c[1], c[2])];
+        // The cell behind the side has let through what was removed: a run that ends near the side is no mirror of
+        // itself.
+        if (removed == State{} || record_->solid(global)) continue;
         State u = block.load(c[0], c[1], c[2]);
         for (std::size_t q = 0; q < 5; ++q) u[q] += (side == 0 ? -sigma : sigma) * removed[q];
         block.store(c[0], c[1], c[2], u);
-        CellIndex const first = block.first();
-        if (record_->cut_index({first[0] + c[0], first[1] + c[1], first[2] + c[2]}) >= 0) continue;
+        if (record_->cut_index(global) >= 0) continue;
         if (std::uint64_t const health = judge(u, flow_.gas()); health != 0) {
           if (total.health == 0) total.where = c;
           total.health |= health;
