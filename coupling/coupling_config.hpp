@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/base/keys.hpp"
+#include "core/model/time_coupling.hpp"
 
 namespace brisance::coupling {
 
@@ -18,7 +19,7 @@ struct BodyWallConfig {
   }
 };
 
-/// Moving cut cells, time coupling `lag` (theory/coupling.md 1.8, 5).
+/// Moving cut cells (theory/coupling.md 1 to 5).
 struct CutCellsConfig {
   double small_cell = 0.5;
   std::string wall_pressure = "half_riemann";
@@ -36,8 +37,25 @@ struct CutCellsConfig {
 };
 
 struct CouplingConfig {
+  static constexpr int most_sub_steps = 64;  ///< where the scene gives no number
   std::optional<CutCellsConfig> cut_cells;
+  std::string scheme = "lag";
+  std::optional<int> sub_steps;
+  Location at;
+  TimeCoupling time_coupling() const {
+    return scheme == "lag"    ? TimeCoupling::lag
+           : scheme == "semi" ? TimeCoupling::semi
+                              : TimeCoupling::explicit_load;
+  }
   static void keys(Keys<CouplingConfig>& k) {
+    k("scheme", &CouplingConfig::scheme, "",
+      "how gas and solid alternate in a step: lag: on the boundary predicted under the last loads; semi: repeated until "
+      "boundary and loads agree; explicit: loads of the boundary at the start of the step, inexact for bodies that turn")
+        .one_of({"lag", "semi", "explicit"});
+    k("sub_steps", &CouplingConfig::sub_steps, "",
+      "steps of the solid in one of the gas; not given: as many as its stable step asks for, 64 at most")
+        .above(0)
+        .at_most(1000);
     k("cut_cells", &CouplingConfig::cut_cells, "", "conservative moving cut cells between [fluid] and [solid]");
   }
 };

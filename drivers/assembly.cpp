@@ -226,7 +226,8 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (coupled) {
     fluid::GasState const& air = scene.fluid->ambient;
     w.cut_cells =
-        std::make_unique<coupling::CutCells>(*scene.coupling->cut_cells, *w.flow, *w.solid, w.surface,
+        std::make_unique<coupling::CutCells>(*scene.coupling->cut_cells, scene.coupling->time_coupling(), *w.flow,
+                                             *w.solid, w.surface,
                                              w.flow->gas().conserved(air.density, air.velocity, air.pressure), comm);
   }
   if (w.euler && w.cut_cells) w.euler->set_fluid_volume(w.cut_cells->fluid_volumes());
@@ -264,8 +265,13 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     w.sampled_files.push_back(w.solid_gauges.get());
     w.solid_gauges->join(w.plan);
   }
-  TimeControl const control{scene.end_time, w.flow ? fluid::steps_per_pair(w.dimension) : 1,
-                            scene.output.interval.value_or(0)};
+  TimeControl control{scene.end_time, w.flow ? fluid::steps_per_pair(w.dimension) : 1,
+                      scene.output.interval.value_or(0)};
+  if (scene.coupling) {
+    control.coupling = scene.coupling->time_coupling();
+    control.least_sub_steps = scene.coupling->sub_steps.value_or(1);
+    control.most_sub_steps = scene.coupling->sub_steps.value_or(coupling::CouplingConfig::most_sub_steps);
+  }
   w.simulation = std::make_unique<Simulation>(w.plan, comm, control);
   return world;
 }

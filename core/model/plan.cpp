@@ -14,6 +14,8 @@ char const* name(Stage stage) {
   switch (stage) {
     case Stage::source:
       return "source";
+    case Stage::set_off:
+      return "set_off";
     case Stage::predict:
       return "predict";
     case Stage::boundary:
@@ -48,6 +50,8 @@ char const* name(Stage stage) {
       return "kick_again";
     case Stage::fracture:
       return "fracture";
+    case Stage::open:
+      return "open";
     case Stage::count:
       break;
   }

@@ -32,6 +32,8 @@ class Plan {
     /// Of an effect that can sub-cycle: its limit and the smallest of the others, both over all ranks, -> the step it
     /// really asks for. Null: the limit itself.
     std::function<Real(Real own, Real others)> relax;
+    /// Does it bind the sub-steps of the solid instead of the whole step? So do those of its effects.
+    bool of_solid() const { return name.starts_with("solid."); }
   };
   /// What an effect keeps of physics. `write` and `read` are collective; `save` and `restore` serve rejected pairs.
   struct Keep {
@@ -80,6 +82,9 @@ class Plan {
   /// once more before the next step.
   void ask_for_forces() { forces_asked_ = true; }
   bool take_asked_forces() { return std::exchange(forces_asked_, false); }
+  /// During Stage::load_solid, on all ranks alike: boundary and loads do not agree yet, so both are due once more.
+  void ask_for_boundary() { boundary_asked_ = true; }
+  bool take_asked_boundary() { return std::exchange(boundary_asked_, false); }
 
   std::vector<Task> const& tasks(Stage s) const { return tasks_[static_cast<std::size_t>(s)]; }
   std::vector<Limit> const& limits() const { return limits_; }
@@ -104,7 +109,7 @@ class Plan {
   std::vector<ParticleField> particle_fields_;
   std::vector<std::string> remarks_;
   std::vector<std::function<std::string()>> findings_;
-  bool forces_asked_ = false;
+  bool forces_asked_ = false, boundary_asked_ = false;
 };
 
 /// One physical effect. Exists only if the scene lists it.

@@ -12,32 +12,87 @@ constexpr Real smallest_retry_factor = 0x1p-20;
 
 }  // namespace
 
-// The `lag` coupling (theory/coupling.md section 5). Stages without tasks are empty loops.
+// The coupled step (theory/coupling.md 1.8, 5). Stages without tasks are empty loops.
 void Simulation::step() {
   run(Stage::source);
+  set_off();
   run(Stage::predict);
-  run(Stage::boundary);
-  run(Stage::diffuse);
-  run(Stage::sweeps);
-  run(Stage::diffuse_again);
-  run(Stage::cut_cells);
-  run(Stage::load_solid);
-  run(Stage::kick);
-  run(Stage::drift);
+  switch (control_.coupling) {
+    case TimeCoupling::lag:
+      step_lag();
+      break;
+    case TimeCoupling::semi:
+      step_semi();
+      break;
+    case TimeCoupling::explicit_load:
+      step_explicit();
+      break;
+  }
   run(Stage::flow_update);
   run(Stage::mix);
   run(Stage::fill);
   run(Stage::source_again);
-  run(Stage::forces);
-  run(Stage::contact);
-  run(Stage::kick_again);
-  run(Stage::fracture);
-  if (plan_.take_asked_forces()) {  // both kicks that meet at a break see the links of their own side of it
-    run(Stage::forces);
-    run(Stage::contact);
-  }
+  run(Stage::open);
   clock_.time += clock_.dt;
   clock_.step += 1;
+}
+
+void Simulation::step_lag() {
+  run(Stage::boundary);
+  move_flow();
+  run(Stage::load_solid);
+  move_solid();
+}
+
+void Simulation::step_semi() {
+  run(Stage::boundary);
+  move_flow();  // once: its pressures do not depend on the boundary at the end of the step
+  run(Stage::load_solid);
+  while (plan_.take_asked_boundary()) {
+    run(Stage::boundary);
+    run(Stage::load_solid);
+  }
+  move_solid();
+}
+
+void Simulation::step_explicit() {
+  move_flow();
+  run(Stage::load_solid);
+  move_solid();
+  run(Stage::boundary);
+}
+
+void Simulation::move_flow() {
+  run(Stage::diffuse);
+  run(Stage::sweeps);
+  run(Stage::diffuse_again);
+}
+
+void Simulation::set_off() {
+  Clock const whole = clock_;
+  clock_.dt = whole.dt / whole.sub_steps;
+  run(Stage::set_off);
+  clock_ = whole;
+}
+
+void Simulation::move_solid() {
+  Clock const whole = clock_;
+  clock_.dt = whole.dt / whole.sub_steps;
+  for (clock_.sub_step = 0; clock_.sub_step < whole.sub_steps; ++clock_.sub_step) {
+    clock_.time = whole.time + clock_.sub_step * clock_.dt;
+    if (clock_.sub_step > 0) run(Stage::set_off);
+    run(Stage::kick);
+    run(Stage::drift);
+    run(Stage::forces);
+    run(Stage::contact);
+    run(Stage::kick_again);
+    run(Stage::fracture);
+    if (plan_.take_asked_forces()) {  // both kicks that meet at a break see the links of their own side of it
+      run(Stage::forces);
+      run(Stage::contact);
+    }
+  }
+  clock_ = whole;
 }
 
 void Simulation::run(Stage stage) {
@@ -53,6 +108,12 @@ Real Simulation::choose_step(std::string& limited_by, bool& at_output) {
   std::vector<Real> seconds;
   for (Plan::Limit const& limit : plan_.limits()) seconds.push_back(limit.seconds(clock_));
   comm_.min(std::span(seconds));
+  solid_limit_ = std::numeric_limits<Real>::max();
+  for (std::size_t i = 0; i < seconds.size(); ++i)
+    if (plan_.limits()[i].of_solid()) {
+      solid_limit_ = min(solid_limit_, seconds[i]);
+      seconds[i] *= control_.most_sub_steps;
+    }
   // Limits that can be met by sub-cycling are told what the others ask for.
   Real others = std::numeric_limits<Real>::max();
   for (std::size_t i = 0; i < seconds.size(); ++i)
@@ -79,6 +140,11 @@ Real Simulation::choose_step(std::string& limited_by, bool& at_output) {
     at_output = true;
   }
   return dt;
+}
+
+int Simulation::sub_steps(Real dt) const {
+  Real const wanted = std::ceil(dt / solid_limit_ * (1 - 1e-12));
+  return static_cast<int>(clamp(wanted, control_.least_sub_steps, control_.most_sub_steps));
 }
 
 bool Simulation::healthy(std::string& message) {
@@ -110,6 +176,7 @@ void Simulation::pair() {
   for (int halvings = 0;; ++halvings) {
     std::string message;
     clock_.dt = dt;
+    clock_.sub_steps = sub_steps(dt);
     bool good = true;
     for (int s = 0; s < control_.steps_per_pair && good; ++s) {
       step();
@@ -126,6 +193,7 @@ void Simulation::pair() {
       statistics_.dt_min = statistics_.dt_max == 0 ? clock_.dt : min(statistics_.dt_min, clock_.dt);
       statistics_.dt_max = max(statistics_.dt_max, clock_.dt);
       statistics_.limited_by[limited_by] += control_.steps_per_pair;
+      statistics_.solid_steps += control_.steps_per_pair * clock_.sub_steps;
       retry_factor_ = min(1, 2 * retry_factor_);
       audit();
       return;
@@ -169,6 +237,7 @@ void Simulation::write(parallel::ArchiveWriter& file) {
   file.attribute("dt_min", statistics_.dt_min);
   file.attribute("dt_max", statistics_.dt_max);
   file.attribute("retries", statistics_.retries);
+  file.attribute("solid_steps", statistics_.solid_steps);
   std::string limits;
   for (auto const& [limit, steps] : statistics_.limited_by) limits += limit + "=" + std::to_string(steps) + ";";
   file.attribute("limited_by", limits);
@@ -184,7 +253,8 @@ void Simulation::read(parallel::ArchiveReader& file) {
   clock_.step = file.integer("step");
   retry_factor_ = file.real("retry_factor");
   outputs_done_ = file.integer("outputs_done");
-  statistics_ = {file.real("dt_min"), file.real("dt_max"), {}, file.integer("retries"), {}};
+  statistics_ = {file.real("dt_min"),        file.real("dt_max"), {}, file.integer("retries"),
+                 file.integer("solid_steps"), {}};
   std::string const limits = file.text("limited_by");
   for (std::size_t at = 0; at < limits.size();) {
     std::size_t const equal = limits.find('=', at), stop = limits.find(';', equal);

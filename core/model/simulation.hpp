@@ -1,11 +1,13 @@
 // The coupled step, and the pair of steps that is the unit of everything that chooses or interrupts (theory/coupling.md
 // 5).
 #pragma once
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "core/model/plan.hpp"
+#include "core/model/time_coupling.hpp"
 
 namespace brisance {
 
@@ -13,12 +15,16 @@ struct TimeControl {
   Real end_time = 0;
   int steps_per_pair = 2;    ///< 1 in 1D and without a fluid
   Real output_interval = 0;  ///< s; steps are shortened to hit its multiples; 0: none
+  TimeCoupling coupling = TimeCoupling::lag;
+  /// Solid steps in a step of the whole: at most so many, as its limits ask; with `least` equal to `most` always so many.
+  int least_sub_steps = 1, most_sub_steps = 1;
 };
 
 struct StepStatistics {
   Real dt_min = 0, dt_max = 0;
   std::map<std::string, std::int64_t> limited_by;  ///< steps per limit
   std::int64_t retries = 0;                        ///< rejected pairs
+  std::int64_t solid_steps = 0;                    ///< sub-steps of the solid
   std::string last_rejection;                      ///< why and where
 };
 
@@ -46,8 +52,16 @@ class Simulation {
 
  private:
   void step();
+  void step_lag();
+  void step_semi();
+  void step_explicit();
+  void set_off();
+  void move_flow();
+  void move_solid();
   void run(Stage stage);
   Real choose_step(std::string& limited_by, bool& at_output);
+  /// Sub-steps of the solid in a step of `dt`.
+  int sub_steps(Real dt) const;
   bool healthy(std::string& message);
 
   Plan& plan_;
@@ -57,6 +71,7 @@ class Simulation {
   Ledger ledger_;
   StepStatistics statistics_;
   Real retry_factor_ = 1;
+  Real solid_limit_ = std::numeric_limits<Real>::max();  ///< s, of its sub-steps, at the start of the pair
   std::int64_t outputs_done_ = 0;  ///< multiples of the output interval already reached
   bool at_output_ = false;
   std::string limited_by_;

@@ -6,8 +6,9 @@ namespace brisance {
 
 enum class Stage {
   source,         ///< first half of the sources, on the state at t^n
+  set_off,        ///< what acts on the solid before the first kick of a (sub-)step
   predict,        ///< X*: kick and drift under the fluid load of the last step
-  boundary,       ///< deformed boundary of X* = geometry of record at t^{n+1}; triangles on their way
+  boundary,       ///< deformed boundary = geometry of record at t^{n+1}; triangles on their way
   diffuse,        ///< first half of the viscous terms
   sweeps,         ///< one task per sweep
   diffuse_again,  ///< second half of the viscous terms
@@ -23,6 +24,7 @@ enum class Stage {
   contact,        ///< forces between bodies at t^{n+1}
   kick_again,     ///< V^{n+1}
   fracture,       ///< links over their criterion leave
+  open,           ///< faces of links that left become boundary
   count
 };
 

@@ -84,6 +84,10 @@ class Solid {
   /// All that happens between the two half kicks of a step: drift and exchange_pose; with multi-rate steps also the
   /// kicks and drifts of the finer levels. Collective among neighbours.
   void move(Real dt);
+  /// Poses at the end of a step of `dt` under the present load, in `steps` sub-steps through which links follow the
+  /// motion while all other forces stay as they are; half velocities are means over dt. Undo it with restore.
+  /// Collective. Source: theory/coupling.md 1.8, 5.  Expects: no multi-rate steps.
+  void predict(Real dt, int steps);
   /// Internal forces and torques of owned particles at the current poses. With multi-rate steps those of a level count
   /// with its share of the step, so that they are what both half kicks need. Collective with consistent
   /// strains.

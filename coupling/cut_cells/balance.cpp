@@ -122,30 +122,80 @@ void CutCells::update_contents(Real dt) {
     Index const cut_index = next_.cut_index(cell);
     if (cut_index < 0) continue;
     CutCell const& cut = next_.cut(cut_index);
-    Vec3 pressure;
-    for (int d = 0; d < grid.dimension; ++d)
-      pressure[d] = wall.pressure[static_cast<std::size_t>(d)][wall.cell(l[0], l[1], l[2])];
+    if (scheme_ == TimeCoupling::explicit_load)
+      exchange_of_start(cut, dt, c.amount);
+    else
+      exchange_at_end(cut, dt, c.amount);
+  }
+  if (scheme_ == TimeCoupling::explicit_load) exchange_outside(dt);
+  boundary_account(dt);
+}
+
+void CutCells::take(Vec3 const& force, Real heat, Vec3 const& velocity, Real dt, State& amount) {
+  Real const work = dot(force, velocity);
+  for (int d = 0; d < 3; ++d) amount[static_cast<std::size_t>(d) + 1] -= dt * force[d];
+  if (viscous_) {
+    amount[4] -= dt * heat;
+    wall_heat_.add(dt * heat);
+    exchanged_energy_.add(dt * std::abs(heat));
+  }
+  amount[4] -= dt * work;
+  pressure_impulse_.add(dt * norm(force));
+  exchanged_energy_.add(dt * std::abs(work));
+}
+
+Vec3 CutCells::swept_pressure(CellIndex c) const {
+  fluid::Grid const& grid = flow_.grid();
+  Block const& block = *std::as_const(flow_).find(grid.block_of(c));
+  CellIndex const first = block.first();
+  WallBlock const& wall = sweeper_.blocks().at(block.id());
+  Vec3 pressure;
+  for (int d = 0; d < grid.dimension; ++d)
+    pressure[d] =
+        wall.pressure[static_cast<std::size_t>(d)][wall.cell(c[0] - first[0], c[1] - first[1], c[2] - first[2])];
+  return pressure;
+}
+
+void CutCells::exchange_at_end(CutCell const& cut, Real dt, State& amount) {
+  Vec3 const pressure = swept_pressure(cut.cell);
+  for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
+    Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
+    Real const chi = piece_factor_[static_cast<std::size_t>(f)];
+    // The same numbers as the force on the solid, with the opposite sign.
+    Vec3 force{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y, -chi * pressure.z * piece.area.z};
+    PieceFriction const friction = viscous_ ? (*viscous_)[static_cast<std::size_t>(f)] : PieceFriction{};
+    if (viscous_) force += friction.force;
+    take(force, friction.heat, next_.wall_velocity(piece.triangle, piece.bary_centroid), dt, amount);
+  }
+}
+
+void CutCells::exchange_of_start(CutCell const& cut, Real dt, State& amount) {
+  for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
+    Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
+    at_start_.for_parts(record_, next_, piece, [&](TrianglePart const& part, StartExchange::Share const& share, auto&) {
+      take(part.share * share.force, part.share * share.heat, next_.wall_velocity(piece.triangle, part.bary), dt,
+           amount);
+    });
+  }
+}
+
+void CutCells::exchange_outside(Real dt) {
+  fluid::Grid const& grid = flow_.grid();
+  for (CutCell const& cut : next_.geometry.cells) {
+    if (grid.inside(cut.cell)) continue;
     for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
       Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
-      Real const chi = piece_factor_[static_cast<std::size_t>(f)];
-      // The same numbers as the force on the solid, with the opposite sign.
-      Vec3 force{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y, -chi * pressure.z * piece.area.z};
-      if (viscous_) {
-        PieceFriction const& friction = (*viscous_)[static_cast<std::size_t>(f)];
-        force += friction.force;
-        c.amount[4] -= dt * friction.heat;
-        wall_heat_.add(dt * friction.heat);
-        exchanged_energy_.add(dt * std::abs(friction.heat));
-      }
-      Vec3 const velocity = next_.wall_velocity(piece.triangle, piece.bary_centroid);
-      Real const work = dot(force, velocity);
-      for (int d = 0; d < 3; ++d) c.amount[static_cast<std::size_t>(d) + 1] -= dt * force[d];
-      c.amount[4] -= dt * work;
-      pressure_impulse_.add(dt * norm(force));
-      exchanged_energy_.add(dt * std::abs(work));
+      at_start_.for_parts(
+          record_, next_, piece,
+          [&](TrianglePart const& part, StartExchange::Share const& share, Piece const& before) {
+            if (!owned(before.cell)) return;
+            State paid{};  // by nobody inside: as if it came from beyond the boundary
+            take(part.share * share.force, part.share * share.heat, next_.wall_velocity(piece.triangle, part.bary), dt,
+                 paid);
+            for (std::size_t q = 1; q < 5; ++q) crossed_[q].add(-paid[q]);
+          });
     }
   }
-  boundary_account(dt);
 }
 
 void CutCells::boundary_account(Real dt) {

@@ -17,9 +17,10 @@ namespace {
 constexpr Index margin = 20;
 }  // namespace
 
-CutCells::CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid& solid,
+CutCells::CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flow& flow, solid::Solid& solid,
                    std::shared_ptr<solid::Surface const> surface, fluid::State const& ambient, parallel::Comm& comm)
     : config_(config),
+      scheme_(scheme),
       flow_(flow),
       solid_(solid),
       comm_(comm),
@@ -82,21 +83,22 @@ fluid::ViscousWalls& CutCells::add_viscosity(fluid::Transport const& transport) 
 }
 
 void CutCells::join(Plan& plan) {
-  plan.effect("coupling.cut_cells", [this] { return record_.bytes() + next_.bytes() + sweeper_.bytes(); });
-  plan.at(Stage::predict, [this](Clock const& c) { predict(c.dt); });
+  plan.effect("coupling.cut_cells", [this] { return record_.bytes() + next_.bytes() + sweeper_.bytes() + at_start_.bytes(); });
+  plan.at(Stage::predict, [this](Clock const& c) { begin_step(c); });
   plan.at(Stage::boundary, [this](Clock const&) { new_geometry(); });
-  plan.at(Stage::load_solid, [this](Clock const&) { load_solid(); });
-  plan.at(Stage::drift, [this](Clock const& c) {
-    surface_.update_velocities();
-    surface_.send_velocities(next_.triangles);
-    solid_.add_load_work(c.dt, wall_work_);
+  plan.at(Stage::load_solid, [this, &plan](Clock const& c) {
+    if (scheme_ == TimeCoupling::explicit_load)
+      load_at_start();
+    else if (load_solid(c))
+      plan.ask_for_boundary();
   });
+  plan.at(Stage::drift, [this](Clock const& c) { end_drift(c); });
   plan.at(Stage::flow_update, [this](Clock const& c) { update_contents(c.dt); });
   plan.at(Stage::mix, [this](Clock const&) { mix(); });
   plan.at(Stage::fill, [this](Clock const&) { fill(); });
   if (solid_.damageable()) {
     broken_.assign(solid_.mesh().links.size(), false);
-    plan.at(Stage::fracture, [this](Clock const&) { open_cracks(); });
+    plan.at(Stage::open, [this](Clock const&) { open_cracks(); });
   }
   plan.limit("coupling.wall", [this](Clock const&) {
     Real seconds = std::numeric_limits<Real>::max();
@@ -149,18 +151,8 @@ void CutCells::join(Plan& plan) {
   plan.keep(std::move(keep));
 }
 
-void CutCells::predict(Real dt) {
-  solid_.save(solid_before_);
-  solid_.half_kick(dt);
-  solid_.drift(dt);
-  solid_.exchange_pose();
-  surface_.predict();
-}
-
 void CutCells::new_geometry() {
-  if (sources_) sweeper_.keep(record_);
-  sweeper_.begin_step();
-  if (viscous_) viscous_->begin_step();
+  if (scheme_ == TimeCoupling::explicit_load) surface_.place();
   // Judged by the owners of the vertices: a triangle that runs away may reach nobody.
   Vec3 const bound = 0.5 * flow_.grid().spacing;
   std::optional<Vec3> const lost = surface_.beyond(bound);
@@ -196,14 +188,6 @@ bool CutCells::build_next() {
   }
   comm_.sum(std::span(&folded, 1));
   return folded == 0;
-}
-
-void CutCells::load_solid() {
-  std::vector<CellForce> forces;
-  if (viscous_) viscous_->find(record_, next_, moved_);
-  wall_pressure(next_, false, forces);
-  surface_.apply(forces);
-  solid_.restore(solid_before_);
 }
 
 void CutCells::mix() {

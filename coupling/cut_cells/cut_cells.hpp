@@ -1,12 +1,15 @@
-// The effect coupling.cut_cells: the conservative exchange between the flow and the moving solid, time coupling `lag`.
-// A file per verb: runs and wall_sweeper (sweeps), wall_load (pressure on the solid), balance (contents), mixing.
+// The effect coupling.cut_cells: the conservative exchange between the flow and the moving solid.
+// A file per verb: runs and wall_sweeper (sweeps), wall_load (pressure on the solid), balance (contents), mixing;
+// time_coupling has what the three schemes differ in.
 #pragma once
 #include <memory>
 #include <optional>
 
 #include "core/model/plan.hpp"
+#include "core/model/time_coupling.hpp"
 #include "coupling/coupling_config.hpp"
 #include "coupling/cut_cells/mixing.hpp"
+#include "coupling/cut_cells/start_exchange.hpp"
 #include "coupling/cut_cells/viscous_wall.hpp"
 #include "coupling/cut_cells/wall_surface.hpp"
 #include "coupling/cut_cells/wall_sweeper.hpp"
@@ -17,7 +20,7 @@ namespace brisance::coupling {
 
 class CutCells : public Effect {
  public:
-  CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid& solid,
+  CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flow& flow, solid::Solid& solid,
            std::shared_ptr<solid::Surface const> surface, fluid::State const& ambient, parallel::Comm& comm);
   void join(Plan& plan) override;
 
@@ -50,9 +53,13 @@ class CutCells : public Effect {
     fluid::State amount;  ///< integral over the cell
   };
   // stages
-  void predict(Real dt);
+  void begin_step(Clock const& clock);
   void new_geometry();
-  void load_solid();
+  /// lag, semi: loads on the boundary of record. Semi: true when the boundary has to follow them once more.
+  bool load_solid(Clock const& clock);
+  /// explicit: loads on the boundary at t^n.
+  void load_at_start();
+  void end_drift(Clock const& clock);
   void update_contents(Real dt);
   void mix();
   void fill();
@@ -62,6 +69,14 @@ class CutCells : public Effect {
   Merging merge_everywhere(std::vector<NearCell>& cells);
   // pieces of them
   void wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces);
+  /// What a part of the wall with this velocity receives in a step is taken from `amount`.
+  void take(Vec3 const& force, Real heat, Vec3 const& velocity, Real dt, fluid::State& amount);
+  void exchange_at_end(CutCell const& cut, Real dt, fluid::State& amount);
+  void exchange_of_start(CutCell const& cut, Real dt, fluid::State& amount);
+  /// Pressures of the sweeps in an owned cell, Pa.
+  Vec3 swept_pressure(CellIndex c) const;
+  /// What moves out of the domain with the wall leaves the account.
+  void exchange_outside(Real dt);
   void transfers();
   /// Collective. Cells around the walls, of this rank and next to it, that hold a vacuum at the start of the step.
   void find_vacuum(WallRecord const& record, bool initial);
@@ -79,6 +94,7 @@ class CutCells : public Effect {
   Real half_riemann(fluid::State const& u, Vec3 const& wall_velocity, Vec3 const& area) const;
 
   CutCellsConfig config_;
+  TimeCoupling scheme_;
   fluid::Flow& flow_;
   solid::Solid& solid_;
   parallel::Comm& comm_;
@@ -95,6 +111,8 @@ class CutCells : public Effect {
   std::vector<Content> contents_;           ///< of the cells the balance rewrites, by id
   std::vector<Real> piece_factor_;          ///< chi of each piece of next_
   std::unique_ptr<ViscousWall> viscous_;    ///< null: the gas has no viscosity
+  StartExchange at_start_;                  ///< explicit: what the pieces at t^n receive
+  int rounds_ = 0;                          ///< semi: of boundary and loads in this step
   bool sources_ = false;
   std::vector<Swept> swept_;
   struct Transfer {

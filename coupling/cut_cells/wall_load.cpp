@@ -91,6 +91,9 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
       piece_factor_[static_cast<std::size_t>(f)] = chi;
       Vec3 force{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y, -chi * pressure.z * piece.area.z};
       if (viscous_ && !initial) force += (*viscous_)[static_cast<std::size_t>(f)].force;
+      if (scheme_ == TimeCoupling::explicit_load && !initial)
+        at_start_.give(record, static_cast<std::size_t>(f), force,
+                       viscous_ ? (*viscous_)[static_cast<std::size_t>(f)].heat : 0);
       GlobalId const triangle = record.triangles[static_cast<std::size_t>(piece.triangle)].id;
       GlobalId const cell = grid.cell_id(cut.cell);
       if (forces.empty() || forces.back().triangle != triangle || forces.back().cell != cell)

@@ -100,7 +100,7 @@ void WallSurface::open(std::shared_ptr<solid::Surface const> opened) {
     if (shortened(jump) != Vec3{}) v.lag = jump;  // else it is swept at once
     surface_->arms(vertex, solid_, arms(v));
   }
-  update_velocities();
+  take_velocities();
 }
 
 Vec3 WallSurface::shortened(Vec3 const& lag) const {
@@ -111,22 +111,41 @@ Vec3 WallSurface::shortened(Vec3 const& lag) const {
 }
 
 void WallSurface::start() {
-  predict();
+  place();
+  freeze_arms();
+  take_velocities();
   accept();
 }
 
-void WallSurface::predict() {
-  for (Vertex& v : vertices_) {
-    auto const vertex = static_cast<Index>(v.id);
-    v.lag = shortened(v.lag);
-    v.position = surface_->position(vertex, solid_) + v.lag;
-    surface_->arms(vertex, solid_, arms(v));
-  }
-  update_velocities();
+void WallSurface::begin_step() {
+  for (Vertex& v : vertices_) v.lag = shortened(v.lag);
 }
 
-void WallSurface::update_velocities() {
-  for (Vertex& v : vertices_) v.velocity = surface_->velocity(static_cast<Index>(v.id), solid_, arms(v));
+void WallSurface::place() {
+  for (Vertex& v : vertices_) v.position = surface_->position(static_cast<Index>(v.id), solid_) + v.lag;
+}
+
+void WallSurface::freeze_arms() {
+  for (Vertex& v : vertices_) surface_->arms(static_cast<Index>(v.id), solid_, arms(v));
+}
+
+void WallSurface::take_velocities(Real share, bool first) {
+  for (Vertex& v : vertices_) {
+    Vec3 const part = share * surface_->velocity(static_cast<Index>(v.id), solid_, arms(v));
+    v.velocity = first ? part : v.velocity + part;
+  }
+}
+
+Real WallSurface::away() const {
+  Real farthest = 0;
+  for (Vertex const& v : vertices_) {
+    Vec3 const distance = surface_->position(static_cast<Index>(v.id), solid_) + v.lag - v.position;
+    for (int d = 0; d < flow_.grid().dimension; ++d) {
+      Real const cells = std::abs(distance[d]) / flow_.grid().spacing[d];
+      if (!(cells <= farthest)) farthest = std::isnan(cells) ? std::numeric_limits<Real>::infinity() : cells;
+    }
+  }
+  return farthest;
 }
 
 void WallSurface::accept() {

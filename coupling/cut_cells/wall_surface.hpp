@@ -36,12 +36,19 @@ class WallSurface {
 
   /// Vertices at the present positions of the particles become the record (start of a run).
   void start();
-  /// Vertices of the predicted particles: new positions, frozen arms, predicted velocities. Expects: poses and
-  /// half-step velocities of ghosts are current.
-  void predict();
-  /// Vertex velocities of the half step under the frozen arms. Expects: half-step velocities of ghosts are current.
-  void update_velocities();
-  /// The predicted positions become the record.
+  /// A new step: vertices that lag behind their particles come nearer to them.
+  void begin_step();
+  /// Vertices at the present places of the particles. Expects: poses of ghosts are current.
+  void place();
+  /// The arms of loads and velocities until the next call are those of the present poses.
+  void freeze_arms();
+  /// `share` of the vertex velocities of a half step under the frozen arms, added to those of earlier sub-steps or, as
+  /// the first, instead of them. Expects: half-step velocities of ghosts are current.
+  void take_velocities(Real share = 1, bool first = true);
+  /// Largest distance along an axis, in cells, of a local vertex from where the particles are now; infinite when that
+  /// is no number.
+  Real away() const;
+  /// The positions become the record.
   void accept();
 
   /// Collective. All triangles within reach of this rank's blocks, sorted by id.

@@ -60,7 +60,7 @@ Damping::Damping(DampingConfig const& config, SolidConfig const& solid_config, S
 void Damping::join(Plan& plan) {
   plan.effect("solid.damping", [] { return sizeof(Damping); });
   if (config_.rate) {
-    plan.at(Stage::source, [this](Clock const& c) {
+    plan.at(Stage::set_off, [this](Clock const& c) {
       if (!over(c.time)) half_decay(c.dt);
     });
     plan.at(Stage::kick_again, [this](Clock const& c) {

@@ -143,7 +143,7 @@ void AbsorbingFaces::join(Plan& plan) {
     for (Group const& g : groups_) bytes += sizeof(Group) + g.links.size() * sizeof(g.links[0]);
     return bytes + account_of_faces_.bytes();
   });
-  plan.at(Stage::source, [this](Clock const&) { account_of_faces_.before_first_kick(); });
+  plan.at(Stage::set_off, [this](Clock const&) { account_of_faces_.before_first_kick(); });
   plan.at(Stage::kick, [this](Clock const&) { account_of_faces_.after_first_kick(); });
   plan.at(Stage::drift, [this](Clock const& c) {
     account_of_faces_.before_change();

@@ -132,7 +132,7 @@ void PointLoads::join(Plan& plan) {
   if (!config_.point_force.empty()) plan.effect("solid.point_force", nothing);
   if (!config_.moment_tensor.empty()) plan.effect("solid.moment_tensor", nothing);
   plan.effects().back().bytes = [this] { return parts_.size() * sizeof(Part); };
-  plan.at(Stage::source, [this](Clock const&) {
+  plan.at(Stage::set_off, [this](Clock const&) {
     for (Part& part : parts_) {
       part.first = part.second;
       part.velocity.begin(solid_, part.particle);

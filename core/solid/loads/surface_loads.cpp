@@ -102,7 +102,7 @@ void SurfaceLoads::join(Plan& plan) {
   if (!config_.traction.empty()) plan.effect("solid.traction", nothing);
   if (!config_.blast.empty()) plan.effect("solid.blast", nothing);
   plan.effects().back().bytes = bytes;
-  plan.at(Stage::source, [this](Clock const&) { account_of_faces_.before_first_kick(); });
+  plan.at(Stage::set_off, [this](Clock const&) { account_of_faces_.before_first_kick(); });
   plan.at(Stage::kick, [this](Clock const&) { account_of_faces_.after_first_kick(); });
   plan.at(Stage::drift, [this](Clock const& c) {
     account_of_faces_.before_change();

@@ -24,7 +24,7 @@ Vec3 turn_between(Quaternion const& q, Quaternion const& to, Real& e0) {
 
 void MovingSupports::join(Plan& plan) {
   plan.effect("solid.supports", [this] { return solid_.mesh().motions.size() * sizeof(RigidMotion); });
-  plan.at(Stage::source, [this](Clock const& c) { set_off(c.time, c.dt); });
+  plan.at(Stage::set_off, [this](Clock const& c) { set_off(c.time, c.dt); });
   plan.at(Stage::kick_again, [this](Clock const& c) { arrive(c.time + c.dt); });
   Plan::Keep keep;
   keep.save = [] {};
