@@ -28,7 +28,7 @@ std::string shell(int dimension, Real motion_cfl, Real end_time) {
               ? "shape = \"tube\"\ntessellation = \"polar\"\nouter_radius = 0.28\ncells = [1, 50]\nphase = 0.013\n"
               : "shape = \"shell\"\ntessellation = \"voronoi\"\nparticles = 60\nouter_radius = 0.33\n") +
          "inner_radius = 0.25\n[[solid.fracture.law]]\nstress = { tensile_strength = " +
-         (dimension == 2 ? "40" : "25") + " }\n[coupling]\ncut_cells = {}\n";
+         (dimension == 2 ? "40" : "25") + " }\n[coupling]\nsub_steps = 1\ncut_cells = {}\n";
 }
 
 /// Largest energy defect.

@@ -22,7 +22,7 @@ std::string scene(Real end_time, Real motion_cfl, std::string const& wall_pressu
          "[[solid.body]]\nmaterial = \"shell\"\nshape = \"tube\"\ntessellation = \"polar\"\ncentre = [\"0 m\", \"0 "
          "m\"]\n"
          "inner_radius = \"0.25 m\"\nouter_radius = \"0.28 m\"\ncells = [1, 50]\nphase = \"0.013 rad\"\n[coupling]\n"
-         "cut_cells = { wall_pressure = \"" +
+         "sub_steps = 1\ncut_cells = { wall_pressure = \"" +
          wall_pressure + "\" }\n";
 }
 

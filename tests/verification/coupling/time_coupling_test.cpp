@@ -65,5 +65,98 @@ TEST(TimeCoupling, SpinningPolygon) {
   }
 }
 
+/// V2. Uniform motion survives the refinement of the pieces and any number of sub-steps.
+TEST(TimeCoupling, UniformMotion) {
+  Vec3 const in_plane{0.61, 0.37, 0}, in_space{0.41, 0.23, -0.31};
+  for (std::string const& scheme : schemes)
+    for (int const dimension : {2, 3}) {
+      Vec3 const velocity = dimension == 2 ? in_plane : in_space;
+      std::string const state = gas_state(1.4, 1, velocity, dimension), n = dimension == 2 ? "40, 40" : "24, 24, 24";
+      std::string const body =
+          dimension == 2 ? polygon_body(regular_polygon(60, 0.13, {0.27, 0.31, 0}, 0.1))
+                         : "[[solid.body]]\nmaterial = \"rigid\"\nshape = \"plate\"\ncentre = [0.45, 0.43, 0.53]\n"
+                           "axis = [0.3, 0.5, 0.8]\nlength = 0.31\nwidth = 0.22\nthickness = 0.11\n";
+      CoupledCase c(
+          "end_time = 1\n[fluid]\nlow = " + quantities(std::vector<Real>(static_cast<std::size_t>(dimension), 0), "m") +
+          "\nhigh = " + quantities(std::vector<Real>(static_cast<std::size_t>(dimension), 1), "m") + "\ncells = [" + n +
+          "]\nambient = " + state + "\neuler = { order = 11, cfl = 0.5 }\n" + inflow_everywhere(state, dimension) +
+          "[solid]\n" + rigid_material(3) + body + "velocity = " + vector(velocity, "m/s") + "\n" +
+          coupling(scheme, "", 3));
+      Real gas = 0, solid = 0;
+      c.run(dimension == 2 ? 100 : 12, [&] {
+        gas = max(gas, deviation(c, 1.4, velocity, 1));
+        solid = max(solid, norm(c.velocity() - velocity));
+      });
+      std::string const variant = scheme + "; " + std::to_string(dimension) + "D; 3 sub-steps";
+      EXPECT_TRUE(evidence::at_most("V2", "uniform translation", variant, "largest deviation of the gas", gas, 1e-11));
+      EXPECT_TRUE(
+          evidence::at_most("V2", "uniform translation", variant, "change of the body's velocity", solid, 1e-11));
+    }
+}
+
+/// V8. A body that a shock throws and turns.
+TEST(TimeCoupling, LiftOff) {
+  constexpr int sides = 400;
+  std::string const behind = gas_state(5.4, 10.0 + 1.0 / 3.0, {20.0 / 9.0, 0, 0});
+  for (std::string const& scheme : schemes) {
+    CoupledCase c("end_time = 0.1641\n[fluid]\nlow = [0, 0]\nhigh = [1, 0.2]\ncells = [200, 40]\nambient = " +
+                  gas_state(1.4, 1, {}) +
+                  "\neuler = { order = 11, cfl = 0.5 }\nboundary = { x_low = \"inflow\", x_high = \"outflow\" "
+                  "}\ninflow = { x_low = " +
+                  behind + " }\n[[fluid.region]]\nlow = [-1, -1]\nhigh = [0.08, 1]\ndensity = 5.4\npressure = " +
+                  digits(10.0 + 1.0 / 3.0) + "\nvelocity = " + quantities({20.0 / 9.0, 0}, "m/s") + "\n[solid]\n" +
+                  rigid_material(10.77) +
+                  polygon_body(regular_polygon(sides, 0.05, {0.15, 0.05, 0},
+                                               -0.5 * std::numbers::pi + std::numbers::pi / sides)) +
+                  coupling(scheme, " wall_pressure = \"cell\" "));
+    timed_run(c, "V8 " + scheme);
+    std::string const variant = scheme + "; 200x40; cell";
+    char const* const name = "cylinder lift-off";
+    EXPECT_TRUE(evidence::near("V8", name, variant, "x of the centre", c.mass_centre().x, 0.3534, 0.001));
+    EXPECT_TRUE(evidence::near("V8", name, variant, "y of the centre", c.mass_centre().y, 0.0843, 0.004));
+    expect_balance(c, "V8", name, variant);
+    EXPECT_TRUE(evidence::at_most("V8", name, variant, "energy defect", c.conservation().energy, 1e-12));
+  }
+}
+
+/// V11. The solid's step is `part` of 1.4e-3 s, that of the gas `sub_steps` of these.
+std::string elastic_shell(std::string const& scheme, Real cfl, int sub_steps, Real end_time) {
+  return "end_time = " + digits(end_time) +
+         "\n[fluid]\nlow = [-0.5, -0.5]\nhigh = [0.5, 0.5]\ncells = [60, 60]\nambient = " + gas_state(1.4, 1, {}) +
+         "\neuler = { order = 11, cfl = 0.5 }\n[[fluid.region]]\nshape = \"ball\"\ncentre = [0.13, 0.05]\n"
+         "radius = 0.1\ndensity = 11.2\npressure = 8\n[solid]\nlinks = {}\nmotion = { cfl = " +
+         digits(cfl) +
+         " }\n[solid.material.shell]\ndensity = 50\nyoung_modulus = 2500\npoisson_ratio = 0\n"
+         "[[solid.body]]\nmaterial = \"shell\"\nshape = \"tube\"\ntessellation = \"polar\"\ncentre = [0, 0]\n"
+         "inner_radius = 0.25\nouter_radius = 0.28\ncells = [1, 50]\nphase = 0.013\n" +
+         coupling(scheme, "", sub_steps);
+}
+
+/// Largest energy defect of V11 with the step `dt` in `sub_steps` parts.
+Real shell_defect(std::string const& scheme, Real dt, int sub_steps) {
+  Real const limit = CoupledCase(elastic_shell(scheme, 1, 1, 1)).world->solid->stable_step();
+  CoupledCase c(elastic_shell(scheme, dt / sub_steps / limit, sub_steps, 0.7));
+  std::string const variant =
+      scheme + "; dt = " + digits(1e3 * dt) + "e-3; " + std::to_string(sub_steps) + " sub-steps";
+  timed_run(c, "V11 " + variant);
+  EXPECT_NEAR(c.simulation().statistics().dt_max, dt, 1e-3 * dt);
+  expect_balance(c, "V11", "elastic shell", variant);
+  EXPECT_TRUE(
+      evidence::at_most("V11", "elastic shell", variant, "largest energy defect", c.conservation().energy, 2.5e-7));
+  return c.conservation().energy;
+}
+
+/// V11. The energy defect is the solid's own: of second order in its step, whatever the coupling and the sub-steps.
+TEST(TimeCoupling, ElasticShell) {
+  constexpr Real dt = 1.4e-3;
+  for (std::string const& scheme : schemes)
+    for (int const sub_steps : {1, 4}) {
+      Real const coarse = shell_defect(scheme, dt, sub_steps), fine = shell_defect(scheme, dt / 2, sub_steps);
+      EXPECT_TRUE(evidence::near("V11", "elastic shell",
+                                 scheme + "; halved step; " + std::to_string(sub_steps) + " sub-steps",
+                                 "order of the energy defect", std::log2(coarse / fine), 2, 0.3));
+    }
+}
+
 }  // namespace
 }  // namespace brisance
