@@ -39,7 +39,7 @@ struct CutCellsConfig {
 struct CouplingConfig {
   static constexpr int most_sub_steps = 64;  ///< where the scene gives no number
   std::optional<CutCellsConfig> cut_cells;
-  std::string scheme = "lag";
+  std::string scheme = "lag", light_solids = "limit";
   std::optional<int> sub_steps;
   Location at;
   TimeCoupling time_coupling() const {
@@ -52,6 +52,10 @@ struct CouplingConfig {
       "how gas and solid alternate in a step: lag: on the boundary predicted under the last loads; semi: repeated until "
       "boundary and loads agree; explicit: loads of the boundary at the start of the step, inexact for bodies that turn")
         .one_of({"lag", "semi", "explicit"});
+    k("light_solids", &CouplingConfig::light_solids, "",
+      "where a particle weighs less than 0.7 of the gas in a cell beside it: limit the step to that share of the gas's, "
+      "or only warn at the start")
+        .one_of({"limit", "warn"});
     k("sub_steps", &CouplingConfig::sub_steps, "",
       "steps of the solid in one of the gas; not given: as many as its stable step asks for, 64 at most")
         .above(0)

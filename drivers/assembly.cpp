@@ -230,6 +230,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
                                              *w.solid, w.surface,
                                              w.flow->gas().conserved(air.density, air.velocity, air.pressure), comm);
   }
+  if (w.cut_cells) w.cut_cells->watch_light_solids(scene.fluid->euler->cfl, scene.coupling->light_solids == "limit");
   if (w.euler && w.cut_cells) w.euler->set_fluid_volume(w.cut_cells->fluid_volumes());
   if (w.viscosity && w.cut_cells) {
     w.viscosity->set_fluid_volume(w.cut_cells->fluid_volumes());

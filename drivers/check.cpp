@@ -189,6 +189,10 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
   Real const wall = steps * per_step / options.ranks * worst;
 
   if (comm.rank() != 0) return 0;
+  std::vector<std::string> remarks = world->plan.remarks();
+  if (world->cut_cells)
+    if (std::string text = world->cut_cells->remark_on_weight(scene.fluid->ambient.density); !text.empty())
+      remarks.push_back(std::move(text));
   bool const linked = world->solid && scene.solid->links;
   auto const quality = linked ? solid::measure_quality(*world->mesh) : std::vector<solid::MeshQuality>{};
   solid::StepLimit const step_limit = linked ? solid::describe_step_limit(*world->solid) : solid::StepLimit{};
@@ -214,7 +218,7 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
                               {"cells_across", c.cells_across},
                               {"density", c.density},
                               {"pressure", c.pressure}});
-    if (!world->plan.remarks().empty()) j["remarks"] = world->plan.remarks();
+    if (!remarks.empty()) j["remarks"] = remarks;
     if (scene.fluid) j["options"]["fluid.sleep"] = world->flow->may_sleep();
     if (scene.solid) j["options"]["solid.sleep"] = world->solid->may_sleep();
     if (world->solid && world->solid->levels())
@@ -275,8 +279,8 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
     fmt::print("  {}\n", fluid::describe(c, world->dimension));
     if (std::string const text = fluid::warning(c); !text.empty()) fmt::print("  warning: {}\n", text);
   }
-  if (!world->plan.remarks().empty()) fmt::print("\nremarks\n");
-  for (std::string const& text : world->plan.remarks()) fmt::print("  {}\n", text);
+  if (!remarks.empty()) fmt::print("\nremarks\n");
+  for (std::string const& text : remarks) fmt::print("  {}\n", text);
   fmt::print("\ntime step\n  {:.3g} s at the start, limited by {}; about {:.0f} steps to {:.3g} s\n", dt, limited_by,
              std::ceil(steps), scene.end_time);
   fmt::print("\npartition on {} ranks\n  imbalance (largest over mean):", options.ranks);

@@ -34,6 +34,7 @@ CutCells::CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flo
   }
   sweeper_.ambient = ambient;
   flow.set_sweeper(&sweeper_);
+  areal_mass_ = areal_masses(surface_.topology(), solid.mesh());
 }
 
 bool CutCells::owned(CellIndex c) const {
@@ -68,6 +69,7 @@ void CutCells::begin() {
   std::vector<CellForce> forces;
   wall_pressure(record_, true, forces);
   surface_.apply(forces);
+  remark_on_start();
 }
 
 void CutCells::rebuild_record() {
@@ -106,6 +108,8 @@ void CutCells::join(Plan& plan) {
       if (Real const w = surface_.fastest_vertex(d); w > 0) seconds = min(seconds, 0.4 * flow_.grid().spacing[d] / w);
     return seconds;
   });
+  if (limited_) plan.limit("coupling.light_solid", [this](Clock const&) { return weigh().second; });
+  remark_ = [&plan](std::string text) { plan.remark(std::move(text)); };
   plan.health([this](Clock const&) { return judge(); });
   plan.account([this](Ledger& ledger) { account(ledger); });
   Plan::Keep keep;
@@ -116,6 +120,7 @@ void CutCells::join(Plan& plan) {
   };
   keep.restore = [this] {
     surface_.restore();
+    areal_mass_ = areal_masses(surface_.topology(), solid_.mesh());
     broken_ = broken_saved_;
     kept_ = kept_saved_;
     surface_.send_triangles(record_.triangles);
@@ -134,6 +139,7 @@ void CutCells::join(Plan& plan) {
   keep.read = [this](parallel::ArchiveReader& file) {
     if (!broken_.empty() && gather_broken())
       surface_.replace(std::make_shared<solid::Surface>(solid_.mesh(), broken_, nullptr));
+    areal_mass_ = areal_masses(surface_.topology(), solid_.mesh());
     surface_.read(file);
     parallel::ArchiveReader::Sparse const stored = file.sparse("coupling/covered", 5);
     kept_.clear();
@@ -358,6 +364,7 @@ void CutCells::open_cracks() {
   if (!gather_broken()) return;
   // Faces that part coincide in the record: no aperture and no volume changes before they move.
   surface_.open(std::make_shared<solid::Surface>(solid_.mesh(), broken_, &surface_.topology()));
+  areal_mass_ = areal_masses(surface_.topology(), solid_.mesh());
   surface_.send_triangles(record_.triangles);
   rebuild_record();
 }

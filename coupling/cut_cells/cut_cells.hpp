@@ -2,12 +2,14 @@
 // A file per verb: runs and wall_sweeper (sweeps), wall_load (pressure on the solid), balance (contents), mixing;
 // time_coupling has what the three schemes differ in.
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include "core/model/plan.hpp"
 #include "core/model/time_coupling.hpp"
 #include "coupling/coupling_config.hpp"
+#include "coupling/cut_cells/light_solid.hpp"
 #include "coupling/cut_cells/mixing.hpp"
 #include "coupling/cut_cells/start_exchange.hpp"
 #include "coupling/cut_cells/viscous_wall.hpp"
@@ -33,6 +35,11 @@ class CutCells : public Effect {
   /// Friction and heat at the walls, for a flow with viscosity. To be called once, before join; the result belongs to
   /// this and must be given to the viscous terms.
   fluid::ViscousWalls& add_viscosity(fluid::Transport const& transport);
+  /// Steps beside light solids: `limited` to a share of the gas's own, which has this Courant number. To be called once,
+  /// before join.
+  void watch_light_solids(Real courant_number, bool limited) { courant_number_ = courant_number, limited_ = limited; }
+  /// What a user should know of light solids in a gas of this density everywhere; mostly nothing.
+  std::string remark_on_weight(Real density) const;
   /// Sources change the flow at the ends of a step: mirror states are then made anew at its start.
   void expect_sources() { sources_ = true; }
 
@@ -67,6 +74,10 @@ class CutCells : public Effect {
   void open_cracks();
   /// Collective. Merges with the cells of all ranks in sight; leaves those of this rank.
   Merging merge_everywhere(std::vector<NearCell>& cells);
+  /// Where the solid is lightest beside the gas of this rank; and the step it allows, s.
+  std::pair<LightestPlace, Real> weigh() const;
+  /// Collective. A remark where the initial gas outweighs the solid.
+  void remark_on_start();
   // pieces of them
   void wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces);
   /// What a part of the wall with this velocity receives in a step is taken from `amount`.
@@ -114,6 +125,10 @@ class CutCells : public Effect {
   StartExchange at_start_;                  ///< explicit: what the pieces at t^n receive
   int rounds_ = 0;                          ///< semi: of boundary and loads in this step
   bool sources_ = false;
+  Real courant_number_ = 0;
+  bool limited_ = false;
+  std::vector<Real> areal_mass_;  ///< by element of the surface
+  std::function<void(std::string)> remark_;
   std::vector<Swept> swept_;
   struct Transfer {
     GlobalId to, from;

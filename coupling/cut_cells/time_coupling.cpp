@@ -1,5 +1,8 @@
 // What the time couplings lag, semi and explicit differ in: which boundary bears the loads, and when it is placed
 // (theory/coupling.md 1.8, 5).
+#include <algorithm>
+#include <limits>
+
 #include "coupling/cut_cells/cut_cells.hpp"
 
 namespace brisance::coupling {
@@ -69,6 +72,68 @@ void CutCells::end_drift(Clock const& clock) {
   bool const last = clock.sub_step + 1 == clock.sub_steps;
   // In `explicit` they travel with the triangles that are still to come.
   if (last && scheme_ != TimeCoupling::explicit_load) surface_.send_velocities(next_.triangles);
+}
+
+std::pair<LightestPlace, Real> CutCells::weigh() const {
+  fluid::Grid const& grid = flow_.grid();
+  fluid::Gas const& gas = flow_.gas();
+  LightestPlace lightest;
+  Real seconds = std::numeric_limits<Real>::max();
+  for (CutCell const& cut : record_.geometry.cells) {
+    if (!owned(cut.cell) || record_.solid(cut.cell)) continue;
+    fluid::Block const& block = *std::as_const(flow_).find(grid.block_of(cut.cell));
+    CellIndex const first = block.first();
+    fluid::State const u = block.load(cut.cell[0] - first[0], cut.cell[1] - first[1], cut.cell[2] - first[2]);
+    if (gas.vacuum(u)) continue;
+    Real step = std::numeric_limits<Real>::max();
+    Real const c = gas.sound_speed(u);
+    for (int d = 0; d < grid.dimension; ++d)
+      step = min(step,
+                 courant_number_ * grid.spacing[d] / (std::abs(u[static_cast<std::size_t>(d) + 1] / u[0]) + c));
+    for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
+      Piece const& piece = record_.geometry.pieces[static_cast<std::size_t>(f)];
+      Real const size = norm(piece.area);
+      GlobalId const element = record_.triangles[static_cast<std::size_t>(piece.triangle)].id;
+      Real const solid = areal_mass_[static_cast<std::size_t>(element)];
+      if (!(size > 0)) continue;
+      Real thickness = 0;
+      for (int d = 0; d < grid.dimension; ++d) thickness += grid.spacing[d] * std::abs(piece.area[d]) / size;
+      Real const ratio = solid / (u[0] * thickness);
+      if (ratio < lightest.ratio) lightest = {ratio, solid, u[0] * thickness, element, piece.centroid};
+      if (ratio < light_ratio) seconds = min(seconds, ratio * step);
+    }
+  }
+  return {lightest, seconds};
+}
+
+void CutCells::remark_on_start() {
+  // Where several places are as light, the first element speaks, on whatever rank it is.
+  LightestPlace const mine = weigh().first;
+  Real ratio = mine.ratio;
+  comm_.min(std::span(&ratio, 1));
+  Real element = mine.ratio == ratio ? static_cast<Real>(mine.element) : std::numeric_limits<Real>::max();
+  comm_.min(std::span(&element, 1));
+  parallel::Bytes bytes;
+  if (mine.ratio == ratio && static_cast<Real>(mine.element) == element) parallel::put(bytes, mine);
+  for (parallel::Bytes const& from : comm_.all_gather(bytes)) {
+    if (from.empty()) continue;
+    std::span<std::byte const> in(from);
+    std::string const text = describe(parallel::take<LightestPlace>(in), surface_.topology(), solid_.mesh(), limited_,
+                                      config_.wall_pressure == "cell");
+    if (!text.empty() && remark_) remark_(text);
+    return;
+  }
+}
+
+std::string CutCells::remark_on_weight(Real density) const {
+  LightestPlace lightest;
+  Real thickness = 0;
+  for (int d = 0; d < flow_.grid().dimension; ++d) thickness = max(thickness, flow_.grid().spacing[d]);
+  for (std::size_t e = 0; e < areal_mass_.size(); ++e)
+    if (Real const ratio = areal_mass_[e] / (density * thickness); ratio < lightest.ratio)
+      lightest = {ratio, areal_mass_[e], density * thickness, static_cast<GlobalId>(e),
+                  surface_.topology().reference(surface_.topology().elements()[e].vertex[0], solid_.mesh())};
+  return describe(lightest, surface_.topology(), solid_.mesh(), limited_, config_.wall_pressure == "cell");
 }
 
 }  // namespace brisance::coupling
