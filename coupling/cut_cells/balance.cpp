@@ -185,15 +185,14 @@ void CutCells::exchange_outside(Real dt) {
     if (grid.inside(cut.cell)) continue;
     for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
       Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
-      at_start_.for_parts(
-          record_, next_, piece,
-          [&](TrianglePart const& part, StartExchange::Share const& share, Piece const& before) {
-            if (!owned(before.cell)) return;
-            State paid{};  // by nobody inside: as if it came from beyond the boundary
-            take(part.share * share.force, part.share * share.heat, next_.wall_velocity(piece.triangle, part.bary), dt,
-                 paid);
-            for (std::size_t q = 1; q < 5; ++q) crossed_[q].add(-paid[q]);
-          });
+      at_start_.for_parts(record_, next_, piece,
+                          [&](TrianglePart const& part, StartExchange::Share const& share, Piece const& before) {
+                            if (!owned(before.cell)) return;
+                            State paid{};  // by nobody inside: as if it came from beyond the boundary
+                            take(part.share * share.force, part.share * share.heat,
+                                 next_.wall_velocity(piece.triangle, part.bary), dt, paid);
+                            for (std::size_t q = 1; q < 5; ++q) crossed_[q].add(-paid[q]);
+                          });
     }
   }
 }

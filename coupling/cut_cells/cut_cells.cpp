@@ -85,7 +85,8 @@ fluid::ViscousWalls& CutCells::add_viscosity(fluid::Transport const& transport) 
 }
 
 void CutCells::join(Plan& plan) {
-  plan.effect("coupling.cut_cells", [this] { return record_.bytes() + next_.bytes() + sweeper_.bytes() + at_start_.bytes(); });
+  plan.effect("coupling.cut_cells",
+              [this] { return record_.bytes() + next_.bytes() + sweeper_.bytes() + at_start_.bytes(); });
   plan.at(Stage::predict, [this](Clock const& c) { begin_step(c); });
   plan.at(Stage::boundary, [this](Clock const&) { new_geometry(); });
   plan.at(Stage::load_solid, [this, &plan](Clock const& c) {

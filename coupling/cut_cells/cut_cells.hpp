@@ -35,8 +35,8 @@ class CutCells : public Effect {
   /// Friction and heat at the walls, for a flow with viscosity. To be called once, before join; the result belongs to
   /// this and must be given to the viscous terms.
   fluid::ViscousWalls& add_viscosity(fluid::Transport const& transport);
-  /// Steps beside light solids: `limited` to a share of the gas's own, which has this Courant number. To be called once,
-  /// before join.
+  /// Steps beside light solids: `limited` to a share of the gas's own, which has this Courant number. To be called
+  /// once, before join.
   void watch_light_solids(Real courant_number, bool limited) { courant_number_ = courant_number, limited_ = limited; }
   /// What a user should know of light solids in a gas of this density everywhere; mostly nothing.
   std::string remark_on_weight(Real density) const;

@@ -51,9 +51,10 @@ std::string describe(LightestPlace const& place, solid::Surface const& surface, 
       place.where.y, place.where.z, place.solid, place.gas, place.ratio, light_ratio,
       limited ? "Steps are limited to this share of the gas's own (coupling.light_solids = \"limit\")"
               : "Steps are not limited (coupling.light_solids = \"warn\"): expect noise, or take \"limit\"",
-      cell_pressure ? "; and take wall_pressure = \"half_riemann\": nothing damps such a wall under the pressure of its "
-                      "cell, at any step"
-                    : "");
+      cell_pressure
+          ? "; and take wall_pressure = \"half_riemann\": nothing damps such a wall under the pressure of its "
+            "cell, at any step"
+          : "");
   return text;
 }
 

@@ -19,7 +19,7 @@ std::vector<Real> areal_masses(solid::Surface const& surface, solid::Mesh const&
 
 /// The place where the solid is lightest beside its gas.
 struct LightestPlace {
-  Real ratio = 1e300;  ///< of the areal masses of solid and gas
+  Real ratio = 1e300;       ///< of the areal masses of solid and gas
   Real solid = 0, gas = 0;  ///< kg/m2
   GlobalId element = -1;
   Vec3 where{};  ///< m

@@ -23,8 +23,7 @@ std::size_t StartExchange::first_of(GlobalId triangle) const {
 }
 
 void StartExchange::give(WallRecord const& record, std::size_t piece, Vec3 const& force, Real heat) {
-  auto const corners = record.geometry.corners_of(record.geometry.pieces[piece]);
-  Real const share = overlap(corners, corners).share;
+  Real const share = part_of(record.geometry.corners_of(record.geometry.pieces[piece])).share;
   if (share > 0) shares_[piece] = {force / share, heat / share};
 }
 
@@ -47,8 +46,7 @@ void StartExchange::exchange(WallRecord const& record, fluid::Flow const& flow, 
       if (std::find(told.begin(), told.end(), rank) != told.end()) return;
       told.push_back(rank);
       for (Index f = cut.first_piece; f < cut.last_piece; ++f)
-        parallel::put(to[rank],
-                      Row{grid.cell_id(cut.cell), f - cut.first_piece, shares_[static_cast<std::size_t>(f)]});
+        parallel::put(to[rank], Row{grid.cell_id(cut.cell), f - cut.first_piece, shares_[static_cast<std::size_t>(f)]});
     });
   }
   std::vector<parallel::Message> out;

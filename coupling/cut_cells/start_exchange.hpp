@@ -29,11 +29,12 @@ class StartExchange {
   /// in the order of the pieces of `record`: the same on every rank.
   template <class Visit>
   void for_parts(WallRecord const& record, WallRecord const& next, Piece const& piece, Visit&& visit) const {
-    GlobalId const triangle = next.triangles[static_cast<std::size_t>(piece.triangle)].id;
+    SurfaceTriangle const& after = next.triangles[static_cast<std::size_t>(piece.triangle)];
+    GlobalId const triangle = after.id;
     for (auto at = first_of(triangle); at < of_triangle_.size() && of_triangle_[at].first == triangle; ++at) {
       auto const place = static_cast<std::size_t>(of_triangle_[at].second);
       Piece const& before = record.geometry.pieces[place];
-      TrianglePart const part = overlap(record.geometry.corners_of(before), next.geometry.corners_of(piece));
+      TrianglePart const part = part_in_cell(record.geometry.corners_of(before), next.lattice(), after, piece.cell);
       if (part.share > 0) visit(part, shares_[place], before);
     }
   }

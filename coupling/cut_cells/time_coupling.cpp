@@ -88,8 +88,7 @@ std::pair<LightestPlace, Real> CutCells::weigh() const {
     Real step = std::numeric_limits<Real>::max();
     Real const c = gas.sound_speed(u);
     for (int d = 0; d < grid.dimension; ++d)
-      step = min(step,
-                 courant_number_ * grid.spacing[d] / (std::abs(u[static_cast<std::size_t>(d) + 1] / u[0]) + c));
+      step = min(step, courant_number_ * grid.spacing[d] / (std::abs(u[static_cast<std::size_t>(d) + 1] / u[0]) + c));
     for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
       Piece const& piece = record_.geometry.pieces[static_cast<std::size_t>(f)];
       Real const size = norm(piece.area);
