@@ -15,6 +15,16 @@ brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bod
 brisance_same_digest(bursting-shell ${scenes}/bursting-shell.toml 80)
 brisance_same_digest(colliding-fragments ${scenes}/colliding-fragments.toml 330)
 brisance_same_digest(blast-bricks ${scenes}/blast-bricks.toml 40 --set "fluid.cells=[24, 18, 12]" --set fluid.block=6)
+# The other time couplings, and sub-steps of the solid: as its limits ask (bursting-shell), or as the scene says.
+brisance_same_digest(bursting-explicit ${scenes}/bursting-shell.toml 60 --set "coupling.scheme=\"explicit\"")
+brisance_same_digest(bursting-semi ${scenes}/bursting-shell.toml 40 --set "coupling.scheme=\"semi\"" --set coupling.sub_steps=2)
+brisance_same_digest(sub-steps ${PROJECT_SOURCE_DIR}/tests/support/scenes/sub-steps.toml 24)
+brisance_same_digest(sub-steps-explicit ${PROJECT_SOURCE_DIR}/tests/support/scenes/sub-steps.toml 24
+                     --set "coupling.scheme=\"explicit\"")
+brisance_same_digest(leave-explicit ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-leave.toml 160
+                     --set "coupling.scheme=\"explicit\"" --set coupling.sub_steps=2)
+brisance_same_digest(viscous-explicit ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-bodies.toml 40
+                     --set "coupling.scheme=\"explicit\"" --set coupling.sub_steps=2)
 brisance_same_digest(bodies-leave ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-leave.toml 240)
 brisance_same_digest(jwl-charge ${PROJECT_SOURCE_DIR}/tests/support/scenes/jwl-charge.toml 60)
 brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 60)
@@ -117,6 +127,15 @@ brisance_expect(mesh_group_missing CODE 2 LABELS unit ABSENT ${runs}/no-group
 
 brisance_expect(check_brick-wall CODE 0 LABELS unit MESSAGE "solid.contact +on.*contact +solid.contact.*372 particles, 828 links"
                 COMMAND ${program} check ${scenes}/brick-wall.toml --ranks 2)
+brisance_expect(scene_unknown_scheme CODE 2 LABELS unit ABSENT ${runs}/no-scheme
+                MESSAGE "coupling.scheme = .implicit. is not known.*lag, semi, explicit"
+                COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/no-scheme --set "coupling.scheme=\"implicit\"")
+brisance_expect(check_light_solid CODE 0 LABELS unit
+                MESSAGE "light solid: particle [0-9]+ of body .tube. .*Steps are limited to this share"
+                COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set "solid.material.steel.density=0.1")
+brisance_expect(scene_contact_in_a_gas CODE 2 LABELS unit ABSENT ${runs}/contact-gas
+                MESSAGE "solid.contact and coupling.cut_cells do not go together yet.*Leave contact out"
+                COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/contact-gas --set solid.contact.friction=0.3)
 
 brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)
