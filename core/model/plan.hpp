@@ -32,8 +32,9 @@ class Plan {
     /// Of an effect that can sub-cycle: its limit and the smallest of the others, both over all ranks, -> the step it
     /// really asks for. Null: the limit itself.
     std::function<Real(Real own, Real others)> relax;
-    /// Does it bind the sub-steps of the solid instead of the whole step? So do those of its effects.
-    bool of_solid() const { return name.starts_with("solid."); }
+    /// Does it bind the sub-steps of the solid instead of the whole step? So do those of its effects, but for contact:
+    /// it looks one step ahead, at who may meet in it.
+    bool of_solid() const { return name.starts_with("solid.") && name != "solid.contact"; }
   };
   /// What an effect keeps of physics. `write` and `read` are collective; `save` and `restore` serve rejected pairs.
   struct Keep {
