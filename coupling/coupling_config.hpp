@@ -42,6 +42,7 @@ struct CouplingConfig {
   std::string scheme = "lag", light_solids = "limit";
   std::optional<int> sub_steps;
   Location at;
+  int largest_sub_steps() const { return sub_steps.value_or(most_sub_steps); }
   TimeCoupling time_coupling() const {
     return scheme == "lag"    ? TimeCoupling::lag
            : scheme == "semi" ? TimeCoupling::semi

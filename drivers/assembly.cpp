@@ -271,7 +271,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (scene.coupling) {
     control.coupling = scene.coupling->time_coupling();
     control.least_sub_steps = scene.coupling->sub_steps.value_or(1);
-    control.most_sub_steps = scene.coupling->sub_steps.value_or(coupling::CouplingConfig::most_sub_steps);
+    control.most_sub_steps = scene.coupling->largest_sub_steps();
   }
   w.simulation = std::make_unique<Simulation>(w.plan, comm, control);
   return world;

@@ -149,6 +149,7 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
       scene.fluid ? initial_acoustic_step(*scene.fluid, *grid, world->flow->gas(), charges) : FluidStep{};
   std::vector<Real> links_dt{world->solid ? world->solid->stable_step() : std::numeric_limits<Real>::infinity()};
   comm.min(std::span(links_dt));
+  if (scene.coupling) links_dt[0] *= scene.coupling->largest_sub_steps();
   Real dt = min(acoustic.dt, links_dt[0]);
   std::string limited_by = acoustic.dt <= links_dt[0] ? "fluid.acoustic (" + acoustic.where + ")" : "solid.links";
   if (scene.fluid && scene.fluid->viscosity) {
