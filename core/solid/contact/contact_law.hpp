@@ -2,7 +2,7 @@
 #pragma once
 #include <array>
 
-#include "core/solid/contact/intersection.hpp"
+#include "core/solid/contact/barrier.hpp"
 
 namespace brisance::solid {
 
@@ -13,6 +13,7 @@ struct PairLaw {
   Real damping = 0;      ///< Hunt and Crossley's factor: pressure (1 + damping u / u_impact)
   Real friction = 0;     ///< Coulomb's coefficient
   Real shear_ratio = 0;  ///< k_t / k_n = 2 (1 - nu) / (2 - nu)
+  BarrierLaw barrier;
 
   Real pressure(Real volume) const { return stiffness * volume * max(1, volume / knee); }  ///< Pa
   /// dp/dV, Pa/m3
@@ -33,8 +34,10 @@ struct PairMemory {
   Real impact_speed = 0;                 ///< closing speed that damping is measured by, m/s
   Real phase = 0;                        ///< 0: first compression and rebound; 1: rebounds; 2: compressed again
   Vec3 force{}, torque_a{}, torque_b{};  ///< the part of the forces that no energy gives, on A; N, N m
+  Real volume = 0;                       ///< of the overlap, m3
+  DepthAxis axis;
 
-  static constexpr int size = 17;
+  static constexpr int size = 24;
   std::array<double, size> pack() const;
   static PairMemory unpack(double const* row);
   /// Energy held by the spring of friction, J.
@@ -59,7 +62,7 @@ struct PairForce {
 
 /// Forces of an overlap at the end of a step of `dt`. `before`: the memory at its start, null when the pair overlaps
 /// for the first time.  Momentum and angular momentum are kept by construction: B gets the opposite force and the
-/// torque that closes the sum. The force of the first and the last step of a flat contact is weighted so that the step
+/// torque that closes the sum. The pressure of the first and the last steps of a contact is weighted so that the step
 /// does not see the kink of the pressure: with f_k = k x_k x_{k+1} / (x_{k+1} - x_{k-1}), x_{k-1} < 0 where the pair
 /// was still apart, the energy of Verlet's scheme after the impact is exactly that before it.
 PairForce contact_force(PairLaw const& law, Intersection const& overlap, Vec3 const& shift, PairEnd const& a,
