@@ -88,11 +88,14 @@ TEST(RandomBodies, MoveWithTheGas) {
     Real gas = 0, solid = 0;
     for (int seed = 1; seed <= count; ++seed) {
       Draw draw(static_cast<std::uint64_t>(1000 * dimension + seed));
-      Real const speed = draw.uniform(0.1, 0.7), size = draw.uniform(0.1, 0.2);
+      Real const speed = draw.uniform(0.1, 0.4);
+      Real const size = dimension == 2 ? draw.uniform(0.08, 0.14) : draw.uniform(0.1, 0.13);
       Vec3 const velocity = speed * draw.direction(dimension);
       std::string const state = gas_state(1.4, 1, velocity, dimension);
-      Vec3 const centre = Vec3{0.5, 0.5, 0.5} - 0.15 * velocity;
-      CoupledCase c("end_time = \"9 s\"\n" + box(dimension, cells, state, "{ order = 11, cfl = 0.5 }") +
+      // 100 steps lead past the middle of the domain, without a way out of it.
+      Real const cfl = dimension == 2 ? 0.5 : 0.2;
+      Vec3 const centre = Vec3{0.5, 0.5, 0.5} - 50 * cfl / (cells * (1 + speed)) * velocity;
+      CoupledCase c("end_time = \"9 s\"\n" + box(dimension, cells, state, "{ order = 11, cfl = " + digits(cfl) + " }") +
                     inflow_everywhere(state, dimension) + "[solid]\n" + rigid_material(30) +
                     body(draw, dimension, centre, size, 1.0 / cells) + "velocity = " + vector(velocity, "m/s") +
                     "\n[coupling]\ncut_cells = {}\n");
@@ -179,7 +182,7 @@ TEST(RandomBodies, SurviveAndBalance) {
   }
   std::string const variant = std::to_string(count) + " draws";
   auto const record = [&](std::string const& what, Real got, Real limit) {
-    EXPECT_TRUE(evidence::at_most("V12", "random bodies between shocks", variant, what, got, limit));
+    EXPECT_TRUE(evidence::at_most("V8", "random bodies between shocks", variant, what, got, limit));
   };
   record("runs that failed", broken, 0);
   record("runs with a negative density or pressure", negative, 0);
