@@ -22,7 +22,7 @@ struct BodyWallConfig {
 /// Moving cut cells (theory/coupling.md 1 to 5).
 struct CutCellsConfig {
   double small_cell = 0.5;
-  std::string wall_pressure = "half_riemann";
+  std::string wall_pressure = "half_riemann", load = "absolute";
   std::optional<BodyWallConfig> wall;
   static void keys(Keys<CutCellsConfig>& k) {
     k("small_cell", &CutCellsConfig::small_cell, "1", "cells with less than this fraction of fluid are merged")
@@ -31,14 +31,25 @@ struct CutCellsConfig {
     k("wall_pressure", &CutCellsConfig::wall_pressure, "",
       "pressure on the wall: that of the cell, or corrected by the half-Riemann factor chi*")
         .one_of({"cell", "half_riemann"});
+    k("load", &CutCellsConfig::load, "",
+      "pressure that the bodies feel: absolute: all of it; relative: what it differs by from fluid.ambient, so that a "
+      "structure in still air is exactly at rest, as one that was built in that air")
+        .one_of({"absolute", "relative"});
     k("wall", &CutCellsConfig::wall, "",
       "fluid.viscosity: friction and heat at the bodies; not given: they hold the gas and pass no heat");
   }
 };
 
+/// What the fluid does to each body, as a table.
+struct BodyLoadsConfig {
+  Location at;
+  static void keys(Keys<BodyLoadsConfig>&) {}
+};
+
 struct CouplingConfig {
   static constexpr int most_sub_steps = 64;  ///< where the scene gives no number
   std::optional<CutCellsConfig> cut_cells;
+  std::optional<BodyLoadsConfig> body_loads;
   std::string scheme = "lag", light_solids = "limit";
   std::optional<int> sub_steps;
   Location at;
@@ -62,6 +73,8 @@ struct CouplingConfig {
         .above(0)
         .at_most(1000);
     k("cut_cells", &CouplingConfig::cut_cells, "", "conservative moving cut cells between [fluid] and [solid]");
+    k("body_loads", &CouplingConfig::body_loads, "",
+      "body_loads.csv: force, torque, impulse and energy that each body receives from the fluid, at every output time");
   }
 };
 

@@ -15,10 +15,11 @@ namespace brisance::drivers {
 
 std::vector<std::string> const& catalogue() {
   static std::vector<std::string> const names{
-      "fluid.euler",       "fluid.viscosity",     "fluid.gravity",      "solid.motion",     "solid.links",
-      "solid.gravity",     "solid.supports",      "solid.pressure",     "solid.traction",   "solid.blast",
-      "solid.point_force", "solid.moment_tensor", "solid.absorbing",    "solid.plasticity", "solid.contact",
-      "solid.damping",     "solid.fracture",      "coupling.cut_cells", "output.gauges",    "output.solid_gauges"};
+      "fluid.euler",        "fluid.viscosity",     "fluid.gravity",      "solid.motion",        "solid.links",
+      "solid.gravity",      "solid.supports",      "solid.pressure",     "solid.traction",      "solid.blast",
+      "solid.point_force",  "solid.moment_tensor", "solid.absorbing",    "solid.plasticity",    "solid.contact",
+      "solid.damping",      "solid.fracture",      "coupling.cut_cells", "coupling.body_loads", "output.gauges",
+      "output.solid_gauges"};
   return names;
 }
 
@@ -252,6 +253,13 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (w.dynamics) w.dynamics->join(w.plan);
   for (auto const& effect : w.solid_effects) effect->join(w.plan);
   if (w.cut_cells) w.cut_cells->join(w.plan);
+  if (scene.coupling && scene.coupling->body_loads) {
+    if (!coupled)
+      scene_error(scene.coupling->body_loads->at,
+                  "coupling.body_loads needs coupling.cut_cells: nothing else lets a fluid act on bodies. Add it");
+    w.body_loads = std::make_unique<coupling::BodyLoads>(*w.solid, comm);
+    w.body_loads->join(w.plan);
+  }
   if (w.solid) solid::require_multirate_support(*scene.solid, w.plan);
   if (!scene.output.gauge.empty()) {
     w.gauges = std::make_unique<fluid::Gauges>(scene.output.gauge, *scene.fluid, *w.flow, fluid_volumes(w));

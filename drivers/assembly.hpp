@@ -9,6 +9,7 @@
 #include "core/solid/mesh.hpp"
 #include "core/solid/solid.hpp"
 #include "core/solid/surface.hpp"
+#include "coupling/body_loads/body_loads.hpp"
 #include "coupling/cut_cells/cut_cells.hpp"
 #include "drivers/scene.hpp"
 #include "fluid/diffusion/viscosity.hpp"
@@ -36,6 +37,7 @@ struct World {
   std::unique_ptr<solid::Dynamics> dynamics;
   std::vector<std::unique_ptr<Effect>> solid_effects;
   std::unique_ptr<coupling::CutCells> cut_cells;
+  std::unique_ptr<coupling::BodyLoads> body_loads;
   std::unique_ptr<fluid::Gauges> gauges;
   std::unique_ptr<solid::SolidGauges> solid_gauges;
   std::vector<SampledFiles*> sampled_files;  ///< of the gauges

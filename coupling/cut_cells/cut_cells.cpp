@@ -33,6 +33,7 @@ CutCells::CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flo
     r->set_region(region);
   }
   sweeper_.ambient = ambient;
+  if (config.load == "relative") ambient_pressure_ = flow.gas().pressure(ambient);
   flow.set_sweeper(&sweeper_);
   areal_mass_ = areal_masses(surface_.topology(), solid.mesh());
 }
@@ -97,6 +98,7 @@ void CutCells::join(Plan& plan) {
   });
   plan.at(Stage::drift, [this](Clock const& c) { end_drift(c); });
   plan.at(Stage::flow_update, [this](Clock const& c) { update_contents(c.dt); });
+  if (ambient_pressure_) plan.at(Stage::flow_update, [this](Clock const& c) { ambient_account(c.dt); });
   plan.at(Stage::mix, [this](Clock const&) { mix(); });
   plan.at(Stage::fill, [this](Clock const&) { fill(); });
   if (solid_.damageable()) {
@@ -127,6 +129,7 @@ void CutCells::join(Plan& plan) {
     surface_.send_triangles(record_.triangles);
     rebuild_record();
     for (auto& sum : crossed_) sum = {};
+    for (auto& sum : ambient_given_) sum = {};
     wall_work_ = pressure_impulse_ = exchanged_energy_ = wall_heat_ = {};
     health_ = {};
   };
@@ -395,7 +398,11 @@ void CutCells::account(Ledger& ledger) {
   ledger.add(Entry::wall_work, wall_work_);
   ledger.add(Entry::pressure_impulse, pressure_impulse_);
   ledger.add(Entry::exchanged_energy, exchanged_energy_);
+  for (std::size_t d = 0; d < 3; ++d)
+    ledger.add(static_cast<Entry>(static_cast<std::size_t>(Entry::in_momentum_x) + d), ambient_given_[d]);
+  ledger.add(Entry::in_energy, ambient_given_[3]);
   for (auto& sum : crossed_) sum = {};
+  for (auto& sum : ambient_given_) sum = {};
   wall_work_ = pressure_impulse_ = exchanged_energy_ = wall_heat_ = {};
 }
 

@@ -96,6 +96,10 @@ class CutCells : public Effect {
   /// Collective. Cuts the cells by the predicted boundary; false when it is not closed around some cell of some rank.
   bool build_next();
   void boundary_account(Real dt);
+  /// Loads relative to the ambient pressure: the difference from what the fluid gives goes to the account.
+  void ambient_account(Real dt);
+  /// Force on the solid where the fluid exerts `chi` times `pressure` on a piece, N.
+  Vec3 force_on_solid(Real chi, Vec3 const& pressure, Vec3 const& area) const;
   void rebuild_record();
   fluid::State content_before(CellIndex c) const;
   Verdict judge() const;
@@ -143,6 +147,8 @@ class CutCells : public Effect {
   // increments for the ledger since the last audit
   std::array<parallel::ExactSum, 5> crossed_;
   parallel::ExactSum wall_work_, pressure_impulse_, exchanged_energy_, wall_heat_;
+  std::optional<Real> ambient_pressure_;             ///< loads are relative to it, Pa
+  std::array<parallel::ExactSum, 4> ambient_given_;  ///< impulse and energy the solid got beyond what the fluid gave
   std::int64_t cut_cells_done_ = 0;
 };
 

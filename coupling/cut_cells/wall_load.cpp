@@ -89,7 +89,7 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
       Real const chi =
           vacuum ? 1 : half_riemann(u, record.wall_velocity(piece.triangle, piece.bary_centroid), piece.area);
       piece_factor_[static_cast<std::size_t>(f)] = chi;
-      Vec3 force{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y, -chi * pressure.z * piece.area.z};
+      Vec3 force = force_on_solid(chi, pressure, piece.area);
       if (viscous_ && !initial) force += (*viscous_)[static_cast<std::size_t>(f)].force;
       if (scheme_ == TimeCoupling::explicit_load && !initial)
         at_start_.give(record, static_cast<std::size_t>(f), force,

@@ -1,0 +1,68 @@
+// V9: an elastic panel in a shock tube, the scene that is shipped (Giordano et al. 2005; theory/coupling.md section 7).
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "tests/support/evidence.hpp"
+#include "tests/support/shipped_scene.hpp"
+
+namespace brisance {
+namespace {
+
+using namespace testing;
+
+/// Deflection of the panel's tip, m: of the particle at its end, carried on by its rotation over half its height.
+Real tip(CoupledCase const& c) {
+  solid::Solid const& s = *c.world->solid;
+  for (Index i = 0; i < s.owned(); ++i) {
+    Vec3 const start = c.world->mesh->particle(s.id(i)).centre;
+    if (std::abs(start.y - 0.06375) > 1e-6 || start.x < 0.26 || start.x > 0.27) continue;
+    solid::Pose const& pose = s.pose()[static_cast<std::size_t>(i)];
+    return pose.x.x - start.x + rotate(pose.q, {0, 0.00125, 0}).x;
+  }
+  ADD_FAILURE() << "no particle at the tip";
+  return 0;
+}
+
+TEST(ShockTubePanel, BendsAsTheReference) {
+  // The short form: the start of the motion, between ends that no wave comes back from in time.
+  std::vector<std::string> const shorter{"end_time=\"0.4 ms\"", "fluid.low=[\"180 mm\", \"0 m\"]",
+                                         "fluid.high=[\"350 mm\", \"80 mm\"]", "fluid.cells=[170, 80]"};
+  CoupledCase c(shipped_scene("panel-in-a-shock-tube"), evidence::full() ? std::vector<std::string>{} : shorter);
+  struct Place {
+    Real time, deflection, tolerance;
+  };
+  // The start of the motion is steep: 0.1 mm are 20 microseconds there.
+  std::vector<Place> places{{0.4e-3, 1.28e-3, 0.04e-3}};
+  if (evidence::full())
+    places = {{0.2e-3, 0.12e-3, 0.02e-3}, {0.4e-3, 1.28e-3, 0.04e-3}, {0.6e-3, 2.67e-3, 0.08e-3},
+              {0.8e-3, 4.37e-3, 0.13e-3}, {1.0e-3, 5.90e-3, 0.18e-3}, {1.2e-3, 6.82e-3, 0.2e-3}};
+  std::string const variant = evidence::full() ? "shipped scene" : "shipped scene; to 0.4 ms";
+  std::size_t next = 0;
+  Real before = 0, time_before = 0, largest = 0, time_of_largest = 0;
+  c.run(-1, [&] {
+    Real const now = tip(c);
+    while (next < places.size() && c.time() >= places[next].time * (1 - 1e-12)) {
+      Real const share = (places[next].time - time_before) / (c.time() - time_before);
+      std::ostringstream what;
+      what << "deflection of the tip at " << 1e3 * places[next].time << " ms";
+      EXPECT_TRUE(evidence::near("V9", "elastic panel in a shock tube", variant, what.str(),
+                                 before + share * (now - before), places[next].deflection, places[next].tolerance));
+      ++next;
+    }
+    if (now > largest) largest = now, time_of_largest = c.time();
+    before = now, time_before = c.time();
+  });
+  EXPECT_EQ(next, places.size());
+  Conservation const& k = c.conservation();
+  EXPECT_TRUE(evidence::at_most("V9", "elastic panel in a shock tube", variant, "energy defect", k.energy, 1e-9));
+  EXPECT_TRUE(evidence::at_most("V9", "elastic panel in a shock tube", variant, "mass defect", k.mass, 1e-12));
+  if (!evidence::full()) return;
+  EXPECT_TRUE(
+      evidence::near("V9", "elastic panel in a shock tube", variant, "largest deflection", largest, 7.4e-3, 0.15e-3));
+  EXPECT_TRUE(
+      evidence::near("V9", "elastic panel in a shock tube", variant, "time of it", time_of_largest, 1.40e-3, 0.02e-3));
+}
+
+}  // namespace
+}  // namespace brisance
