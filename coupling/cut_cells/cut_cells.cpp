@@ -4,6 +4,7 @@
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/mixing.hpp"
+#include "coupling/cut_cells/wall_centroids.hpp"
 #include "parallel/error.hpp"
 
 namespace brisance::coupling {
@@ -20,6 +21,7 @@ constexpr Index margin = 20;
 CutCells::CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid& solid,
                    std::shared_ptr<solid::Surface const> surface, fluid::State const& ambient, parallel::Comm& comm)
     : config_(config),
+      linear_(config.profile == "linear"),
       flow_(flow),
       solid_(solid),
       comm_(comm),
@@ -182,6 +184,7 @@ void CutCells::new_geometry() {
     build_next();
   }
   same_ = !moved_;
+  if (linear_) sweeper_.make_profiles(next_, same_);
 }
 
 bool CutCells::build_next() {
@@ -245,6 +248,7 @@ void CutCells::mix() {
       for (int side = 0; side < 2; ++side)
         cell.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] = next_.aperture(cell.cell, d, side);
     cell.mine = owned(cell.cell);
+    if (linear_) cell.place = grid.centre(cell.cell) + fluid_centroid(next_, cell.cell);
     while (next_content < contents_.size() && contents_[next_content].cell < cell.id) ++next_content;
     if (next_content < contents_.size() && contents_[next_content].cell == cell.id) {
       cell.amount = contents_[next_content].amount;
@@ -302,6 +306,13 @@ void CutCells::mix() {
     if (outgrown > 0) merging = merge_everywhere(cells);
   }
   if (!merging.trouble.empty() && health_.good) health_ = {false, merging.trouble};
+  store(cells);
+  if (linear_) spread(cells);
+}
+
+void CutCells::store(std::vector<NearCell> const& cells) {
+  fluid::Grid const& grid = flow_.grid();
+  Real const full = grid.cell_volume();
   kept_.clear();
   for (NearCell const& cell : cells) {
     if (!cell.mine || !(cell.rewritten || cell.grouped)) continue;
@@ -338,7 +349,6 @@ Merging CutCells::merge_everywhere(std::vector<NearCell>& cells) {
     }
   std::sort(all.begin(), all.end(), [](NearCell const& a, NearCell const& b) { return a.id < b.id; });
   Merging const merging = merge_small_cells(flow_.grid(), config_.small_cell, Sight::everything, all);
-  std::erase_if(all, [](NearCell const& c) { return !c.mine; });
   cells = std::move(all);
   return merging;
 }

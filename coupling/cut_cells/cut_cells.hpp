@@ -61,6 +61,9 @@ class CutCells : public Effect {
   /// Collective. Merges with the cells of all ranks in sight; leaves those of this rank.
   Merging merge_everywhere(std::vector<NearCell>& cells);
   // pieces of them
+  void store(std::vector<NearCell> const& cells);
+  /// Collective. The members of every group take the linear profile of their group instead of its mean.
+  void spread(std::vector<NearCell> const& cells);
   void wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces);
   void transfers();
   /// Collective. Cells around the walls, of this rank and next to it, that hold a vacuum at the start of the step.
@@ -72,6 +75,9 @@ class CutCells : public Effect {
   void boundary_account(Real dt);
   void rebuild_record();
   fluid::State content_before(CellIndex c) const;
+  /// What the profiles change of the flux through the open part of a face of `c`, whose centroid is not that of the
+  /// face.
+  fluid::State aperture_correction(CellIndex c, int d, int side) const;
   Verdict judge() const;
   void account(Ledger& ledger);
   void digest(parallel::Digest& digest) const;
@@ -79,6 +85,7 @@ class CutCells : public Effect {
   Real half_riemann(fluid::State const& u, Vec3 const& wall_velocity, Vec3 const& area) const;
 
   CutCellsConfig config_;
+  bool linear_;  ///< profiles in cut cells
   fluid::Flow& flow_;
   solid::Solid& solid_;
   parallel::Comm& comm_;
@@ -100,10 +107,11 @@ class CutCells : public Effect {
   struct Transfer {
     GlobalId to, from;
     Real volume;
+    Vec3 place;  ///< about where it comes from, m from the centre of `from`
   };
   std::vector<Transfer> transfers_;
   std::vector<Content> moved_contents_;
-  StateGather swept_states_;
+  StateGather swept_states_, around_groups_;
   CellSet near_;  ///< work space of mix
   Verdict health_;
 

@@ -197,6 +197,7 @@ class Merger {
       for (std::size_t d = 0; d < 3; ++d)
         if (sight_ == Sight::halo && high[r][d] - low[r][d] >= largest_group && cell(i).mine) return {"", true};
       cell(i).grouped = true;
+      cell(i).group = root(i);
       for (std::size_t q = 0; q < 5; ++q) cell(i).mean[q] = amount_[r][q] / volume_[r];
     }
     return {};
