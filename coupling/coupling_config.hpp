@@ -22,7 +22,7 @@ struct BodyWallConfig {
 struct CutCellsConfig {
   double small_cell = 0.5;
   std::string wall_pressure = "half_riemann";
-  std::string profile = "linear";
+  std::string profile = "density";
   std::optional<BodyWallConfig> wall;
   static void keys(Keys<CutCellsConfig>& k) {
     k("small_cell", &CutCellsConfig::small_cell, "1", "cells with less than this fraction of fluid are merged")
@@ -32,8 +32,8 @@ struct CutCellsConfig {
       "pressure on the wall: that of the cell, or corrected by the half-Riemann factor chi*")
         .one_of({"cell", "half_riemann"});
     k("profile", &CutCellsConfig::profile, "",
-      "of the gas within cut cells, for what passes partly open faces: linear is second order at the wall")
-        .one_of({"constant", "linear"});
+      "what varies linearly within cut cells, for what passes partly open faces: nothing, the density, or all")
+        .one_of({"constant", "density", "linear"});
     k("wall", &CutCellsConfig::wall, "",
       "fluid.viscosity: friction and heat at the bodies; not given: they hold the gas and pass no heat");
   }

@@ -4,7 +4,6 @@
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/cut_cells.hpp"
-#include "coupling/cut_cells/wall_centroids.hpp"
 
 namespace brisance::coupling {
 
@@ -41,6 +40,7 @@ void CutCells::transfers() {
       Vec3 before;
       for (std::size_t a = 0; a < 3; ++a) before += piece.bary_centroid[a] * triangle.x_old[a];
       Vec3 const middle = 0.5 * (before + piece.centroid);
+      Vec3 const velocity = next_.wall_velocity(piece.triangle, piece.bary_centroid);
       for (Swept const& s : swept_) {
         // Both cells inside, or the exchange is dropped for both.
         if (s.cell == cut.cell || !grid.inside(s.cell) || s.volume == 0) continue;
@@ -48,7 +48,7 @@ void CutCells::transfers() {
         Vec3 place = middle - grid.centre(s.cell);
         for (int d = 0; d < 3; ++d)
           place[d] = d < grid.dimension ? clamp(place[d], -0.5 * grid.spacing[d], 0.5 * grid.spacing[d]) : 0;
-        transfers_.push_back({to, grid.cell_id(s.cell), s.volume, place});
+        transfers_.push_back({to, grid.cell_id(s.cell), s.volume, place, piece.area, velocity});
         wanted.push_back(transfers_.back().from);
       }
     }
@@ -79,35 +79,6 @@ State CutCells::content_before(CellIndex c) const {
   return u;
 }
 
-State CutCells::aperture_correction(CellIndex c, int d, int side) const {
-  fluid::Grid const& grid = flow_.grid();
-  auto const dir = static_cast<std::size_t>(d);
-  CellIndex low = c;
-  low[dir] += side - 1;
-  CellIndex high = low;
-  ++high[dir];
-  Vec3 const offset = aperture_centroid(next_, c, d, side);
-  State u{}, change{};
-  Real known = 0;
-  WallSlopes const& profiles = sweeper_.profiles();
-  for (int end = 0; end < 2; ++end) {
-    CellIndex const cell = end == 0 ? low : high;
-    if (!grid.inside(cell)) continue;
-    GlobalId const id = grid.cell_id(cell);
-    Profile const* const profile = profiles.profile(id);
-    if (!profile) continue;
-    Vec3 face;
-    face[d] = (end == 0 ? 0.5 : -0.5) * grid.spacing[d];
-    State const at_face = profiles.value(id, *profiles.mean(id), face);
-    known += 1;
-    State const beside = change_along(*profile, offset);
-    for (std::size_t q = 0; q < 5; ++q) u[q] += at_face[q], change[q] += beside[q];
-  }
-  if (known == 0) return {};
-  for (std::size_t q = 0; q < 5; ++q) u[q] /= known, change[q] /= known;
-  return flux_change(flow_.gas(), u, change, d);
-}
-
 void CutCells::update_contents(Real dt) {
   fluid::Grid const& grid = flow_.grid();
   transfers();
@@ -134,7 +105,11 @@ void CutCells::update_contents(Real dt) {
   // In the order of pieces, which is that of cells and triangles on every rank.
   for (Transfer const& t : transfers_) {
     State u = swept_states_[swept_states_.slot(t.from)];
-    if (linear_) u = sweeper_.profiles().value(t.from, u, t.place);
+    if (linear_ && u[0] > 0) {
+      // Gas that slides along the wall: the fluxes pass what stands half a step upstream.
+      Vec3 const slip = beside(t.area, Vec3{u[1], u[2], u[3]} / u[0] - t.wall_velocity);
+      u = sweeper_.profiles().value(t.from, u, t.place - 0.5 * dt * slip);
+    }
     if (State* to = content(t.to)) add(*to, t.volume, u);
     if (State* from = content(t.from)) add(*from, -t.volume, u);
   }
@@ -151,11 +126,10 @@ void CutCells::update_contents(Real dt) {
         CellIndex face = l;
         face[dir] += side;
         Real const aperture = next_.aperture(cell, d, side);
+        if (linear_) add(c.amount, side == 0 ? dt : -dt, profile_flux(cell, d, side));
         if (aperture == 0) continue;
         std::size_t const at = wall.face(d, face[0], face[1], face[2]);
         add(c.amount, (side == 0 ? dt : -dt) * aperture, wall.flux[dir][at]);
-        if (linear_ && aperture < grid.face_area(d))
-          add(c.amount, (side == 0 ? dt : -dt) * aperture, aperture_correction(cell, d, side));
         if (viscous_) add_viscous(c.amount, (side == 0 ? -1 : 1) * aperture, wall.viscous[dir][at]);
       }
     }

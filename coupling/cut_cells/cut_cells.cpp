@@ -21,7 +21,7 @@ constexpr Index margin = 20;
 CutCells::CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid& solid,
                    std::shared_ptr<solid::Surface const> surface, fluid::State const& ambient, parallel::Comm& comm)
     : config_(config),
-      linear_(config.profile == "linear"),
+      linear_(config.profile != "constant"),
       flow_(flow),
       solid_(solid),
       comm_(comm),
@@ -34,6 +34,7 @@ CutCells::CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid
     r->set_region(region);
   }
   sweeper_.ambient = ambient;
+  sweeper_.profile_kind = config.profile == "linear" ? ProfileKind::all : ProfileKind::density;
   flow.set_sweeper(&sweeper_);
 }
 

@@ -75,9 +75,9 @@ class CutCells : public Effect {
   void boundary_account(Real dt);
   void rebuild_record();
   fluid::State content_before(CellIndex c) const;
-  /// What the profiles change of the flux through the open part of a face of `c`, whose centroid is not that of the
-  /// face.
-  fluid::State aperture_correction(CellIndex c, int d, int side) const;
+  /// What the profiles add to the flux through a face of `c`, times its area: of its open part, whose centroid is not
+  /// that of the face, and of the part that the wall opened or closed in this step. 0 at sides of the domain.
+  fluid::State profile_flux(CellIndex c, int d, int side) const;
   Verdict judge() const;
   void account(Ledger& ledger);
   void digest(parallel::Digest& digest) const;
@@ -108,6 +108,7 @@ class CutCells : public Effect {
     GlobalId to, from;
     Real volume;
     Vec3 place;  ///< about where it comes from, m from the centre of `from`
+    Vec3 area, wall_velocity;
   };
   std::vector<Transfer> transfers_;
   std::vector<Content> moved_contents_;

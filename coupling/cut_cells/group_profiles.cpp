@@ -96,7 +96,7 @@ void CutCells::spread(std::vector<NearCell> const& cells) {
     }
     State const& mean = cells[static_cast<std::size_t>(group.members.front())].mean;
     Profile profile;
-    if (!fit_profile(flow_.gas(), grid.spacing, grid.dimension, mean, around, profile)) continue;
+    if (!fit_profile(sweeper_.profile_kind, flow_.gas(), grid.spacing, grid.dimension, mean, around, profile)) continue;
     // All members or none: the mean of the group is kept.
     bool const fits = std::all_of(group.members.begin(), group.members.end(), [&](Index m) {
       State const change = change_along(profile, cells[static_cast<std::size_t>(m)].place - group.place);

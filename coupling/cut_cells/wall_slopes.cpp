@@ -106,12 +106,12 @@ void WallSlopes::clear() {
   neighbours_.clear();
 }
 
-void WallSlopes::refresh(parallel::Comm& comm, ReadCell const& read) {
+void WallSlopes::refresh(parallel::Comm& comm, ReadCell const& read, ProfileKind kind) {
   states_.refresh(comm, read);
-  for (Cell& p : cells_) fit(p);
+  for (Cell& p : cells_) fit(p, kind);
 }
 
-bool fit_profile(fluid::Gas const& gas, Vec3 const& spacing, int dimension, State const& u,
+bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& spacing, int dimension, State const& u,
                  std::span<PlacedState const> neighbours, Profile& profile) {
   if (gas.vacuum(u)) return false;
   Real const pressure = gas.pressure(u) + gas.curve.stiffness;
@@ -161,6 +161,18 @@ bool fit_profile(fluid::Gas const& gas, Vec3 const& spacing, int dimension, Stat
     }
     for (std::size_t i = 0; i < axes; ++i) profile[i][q] = s[i];
   }
+  if (kind == ProfileKind::density) {
+    // At the velocity and pressure of the cell.
+    Real const step = 1e-3 * u[0], p = gas.pressure(u);
+    Real energy = 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / (u[0] * u[0]);
+    if (!gas.curve.zero())
+      energy += (gas.energy_at_rest(u[0] + step, p) - gas.energy_at_rest(u[0] - step, p)) / (2 * step);
+    for (std::size_t i = 0; i < axes; ++i) {
+      for (std::size_t q = 1; q < 4; ++q) profile[i][q] = profile[i][0] * u[q] / u[0];
+      profile[i][4] = profile[i][0] * energy;
+    }
+    most[4] = most[0] * std::abs(energy);
+  }
   // One factor for all components, so that a contact stays one: no change across half a cell beyond what is seen.
   Real factor = min(1, 2 - jump / smooth_jump);
   for (std::size_t const q : {std::size_t{0}, std::size_t{4}}) {
@@ -180,14 +192,14 @@ State change_along(Profile const& profile, Vec3 const& offset) {
   return change;
 }
 
-void WallSlopes::fit(Cell& cell) const {
+void WallSlopes::fit(Cell& cell, ProfileKind kind) const {
   std::array<PlacedState, 26> around;
   auto const n = static_cast<std::size_t>(cell.last - cell.first);
   for (std::size_t i = 0; i < n; ++i) {
     Neighbour const& neighbour = neighbours_[static_cast<std::size_t>(cell.first) + i];
     around[i] = {states_[neighbour.slot], neighbour.offset};
   }
-  cell.flat = cell.slot < 0 || !fit_profile(gas_, spacing_, dimension_, states_[cell.slot], {around.data(), n},
+  cell.flat = cell.slot < 0 || !fit_profile(kind, gas_, spacing_, dimension_, states_[cell.slot], {around.data(), n},
                                             cell.profile);
 }
 

@@ -9,6 +9,8 @@
 
 namespace brisance::coupling {
 
+/// What varies within a cell: nothing but the density, at the velocity and pressure of the cell, or all.
+enum class ProfileKind { density, all };
 /// Gradient of the conserved variables along each axis, per m.
 using Profile = std::array<fluid::State, 3>;
 fluid::State change_along(Profile const& profile, Vec3 const& offset);
@@ -20,7 +22,7 @@ struct PlacedState {
 };
 /// The least-squares profile of a mean `u` among its neighbours; false, where it is to be flat: beside vacuum and
 /// jumps. Cost: 26 neighbours, 0.3 us.
-bool fit_profile(fluid::Gas const& gas, Vec3 const& spacing, int dimension, fluid::State const& u,
+bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& spacing, int dimension, fluid::State const& u,
                  std::span<PlacedState const> neighbours, Profile& profile);
 
 /// Is there a way from c to a cell of its 3^d neighbourhood, one step along each axis that differs, through open faces?
@@ -30,8 +32,8 @@ class WallSlopes {
  public:
   /// Collective. `cells`: global ids, sorted, unique; those that are solid in `record` have no profile.
   void plan(parallel::Comm& comm, fluid::Flow& flow, WallRecord const& record, std::vector<GlobalId> cells);
-  /// Collective. Gradients of the states that `read` gives: of the conserved variables, 0 beside jumps and vacuum.
-  void refresh(parallel::Comm& comm, ReadCell const& read);
+  /// Collective. Gradients of the states that `read` gives, 0 beside jumps and vacuum.
+  void refresh(parallel::Comm& comm, ReadCell const& read, ProfileKind kind);
   void clear();
   bool planned() const { return planned_; }
 
@@ -57,7 +59,7 @@ class WallSlopes {
     Profile profile{};
   };
   Cell const* find(GlobalId cell) const;
-  void fit(Cell& cell) const;
+  void fit(Cell& cell, ProfileKind kind) const;
 
   bool planned_ = false;
   int dimension_ = 3;

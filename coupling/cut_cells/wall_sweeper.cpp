@@ -95,8 +95,8 @@ void WallSweeper::make_profiles(WallRecord const& next, bool same) {
   }
   if (!image_slopes_.planned()) image_slopes_.plan(comm_, flow_, *record_, image_cells_);
   auto const read = [](Block const& b, Index i, Index j, Index k) { return b.load(i, j, k); };
-  profiles_.refresh(comm_, read);
-  image_slopes_.refresh(comm_, read);
+  profiles_.refresh(comm_, read, profile_kind);
+  image_slopes_.refresh(comm_, read, profile_kind);
   profiled_ = true;
   for (auto& [id, wall] : blocks_) {
     Block& block = *flow_.find(id);

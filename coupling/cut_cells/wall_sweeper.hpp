@@ -80,6 +80,7 @@ class WallSweeper : public fluid::BlockSweeper {
 
   std::map<Index, WallBlock>& blocks() { return blocks_; }
   std::map<Index, WallBlock> const& blocks() const { return blocks_; }
+  ProfileKind profile_kind = ProfileKind::density;
   fluid::State ambient{};  ///< stands where no image exists
   std::size_t bytes() const;
 

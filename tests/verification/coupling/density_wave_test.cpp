@@ -12,6 +12,10 @@ namespace {
 
 using namespace testing;
 
+Real speed(char const* name, Real otherwise) {
+  char const* const s = std::getenv(name);
+  return s ? std::atof(s) : otherwise;
+}
 struct Wave {
   int dimension = 2;
   Real degrees = 18.4;
@@ -28,8 +32,8 @@ struct Wave {
     Real const a = degrees * std::numbers::pi / 180;
     return {std::cos(a), std::sin(a), 0};
   }
-  Vec3 wall_velocity() const { return moving ? 0.43 * normal() + 0.2 * along() : Vec3{}; }
-  Vec3 velocity() const { return wall_velocity() + 1.2 * along(); }
+  Vec3 wall_velocity() const { return moving ? speed("WAVE_V", 0.43) * normal() + speed("WAVE_S", 0.2) * along() : Vec3{}; }
+  Vec3 velocity() const { return wall_velocity() + speed("WAVE_U", 1.2) * along(); }
   Vec3 point() const { return Vec3{0.5, 0.417, dimension == 2 ? 0 : 0.5} - (moving ? 0.06 : 0.0) * normal(); }
   static constexpr Real end = 0.25, width = 0.1;
   Vec3 lump(Real t) const { return point() - 0.15 * along() + t * velocity(); }
@@ -66,7 +70,7 @@ std::string scene(Wave const& w, int cells) {
                 "]\nlength = \"6 m\"\nwidth = \"6 m\"\nthickness = \"2 m\"\n" + motion;
   return "end_time = " + quantity(Wave::end, "s") + "\n[fluid]\nlow = " + corner(0) + "\nhigh = " + corner(1) +
          "\ncells = [" + n + ", " + n + (w.dimension == 3 ? ", " + n : "") + "]\nambient = " + state +
-         "\neuler = { order = " + std::to_string(w.order) + ", cfl = 0.5 }\n" + inflow_everywhere(state, w.dimension) +
+         "\neuler = { order = " + std::to_string(w.order) + ", cfl = " + digits(speed("WAVE_CFL", 0.5)) + " }\n" + inflow_everywhere(state, w.dimension) +
          "[solid]\n" + rigid_material(3) + body + "[coupling]\ncut_cells = { " + w.keys + " }\n";
 }
 
