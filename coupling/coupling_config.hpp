@@ -21,13 +21,17 @@ struct BodyWallConfig {
 /// Moving cut cells, time coupling `lag` (theory/coupling.md 1.8, 5).
 struct CutCellsConfig {
   double small_cell = 0.5;
+  std::string small_cells = "merging";
   std::string wall_pressure = "half_riemann";
   std::string profile = "density";
   std::optional<BodyWallConfig> wall;
   static void keys(Keys<CutCellsConfig>& k) {
-    k("small_cell", &CutCellsConfig::small_cell, "1", "cells with less than this fraction of fluid are merged")
+    k("small_cell", &CutCellsConfig::small_cell, "1", "cells with less than this fraction of fluid are small")
         .above(0)
         .at_most(0.5);
+    k("small_cells", &CutCellsConfig::small_cells, "",
+      "what becomes of them: merged with neighbours, or state redistribution among these, and merging where that fails")
+        .one_of({"merging", "redistribution"});
     k("wall_pressure", &CutCellsConfig::wall_pressure, "",
       "pressure on the wall: that of the cell, or corrected by the half-Riemann factor chi*")
         .one_of({"cell", "half_riemann"});

@@ -4,6 +4,7 @@
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/mixing.hpp"
+#include "coupling/cut_cells/redistribution.hpp"
 #include "coupling/cut_cells/wall_centroids.hpp"
 #include "parallel/error.hpp"
 
@@ -249,7 +250,8 @@ void CutCells::mix() {
       for (int side = 0; side < 2; ++side)
         cell.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] = next_.aperture(cell.cell, d, side);
     cell.mine = owned(cell.cell);
-    if (linear_) cell.place = grid.centre(cell.cell) + fluid_centroid(next_, cell.cell);
+    if (linear_ || config_.small_cells == "redistribution")
+      cell.place = grid.centre(cell.cell) + fluid_centroid(next_, cell.cell);
     while (next_content < contents_.size() && contents_[next_content].cell < cell.id) ++next_content;
     if (next_content < contents_.size() && contents_[next_content].cell == cell.id) {
       cell.amount = contents_[next_content].amount;
@@ -261,42 +263,10 @@ void CutCells::mix() {
       for (Real& x : cell.amount) x *= cell.volume;
     }
   }
-  if (comm_.size() > 1) {
-    struct Row {
-      GlobalId id;
-      State amount;
-      std::int64_t rewritten;
-    };
-    std::map<int, parallel::Bytes> to;
-    for (NearCell const& cell : cells) {
-      if (!cell.mine) continue;
-      std::vector<int> ranks;
-      CellBox const around =
-          grown(grid, {cell.cell, {cell.cell[0] + 1, cell.cell[1] + 1, cell.cell[2] + 1}}, mixing_halo);
-      CellIndex low{}, high{};  // groups do not reach through periodic sides
-      for (std::size_t d = 0; d < 3; ++d) {
-        low[d] = std::max(around.low[d], 0);
-        high[d] = std::min(around.high[d], grid.cells[d]) - 1;
-      }
-      auto const b0 = grid.block_position(grid.block_of(low)), b1 = grid.block_position(grid.block_of(high));
-      for (Index bz = b0[2]; bz <= b1[2]; ++bz)
-        for (Index by = b0[1]; by <= b1[1]; ++by)
-          for (Index bx = b0[0]; bx <= b1[0]; ++bx) {
-            int const rank = flow_.owner(grid.block_id({bx, by, bz}));
-            if (rank != comm_.rank() && std::find(ranks.begin(), ranks.end(), rank) == ranks.end())
-              ranks.push_back(rank);
-          }
-      for (int const rank : ranks) parallel::put(to[rank], Row{cell.id, cell.amount, cell.rewritten});
-    }
-    std::vector<parallel::Message> out;
-    for (auto& [rank, data] : to) out.push_back({rank, std::move(data)});
-    for (parallel::Message const& message : comm_.deliver(std::move(out)))
-      for (std::span<std::byte const> in(message.data); !in.empty();) {
-        Row const row = parallel::take<Row>(in);
-        auto const at = std::lower_bound(cells.begin(), cells.end(), row.id,
-                                         [](NearCell const& c, GlobalId id) { return c.id < id; });
-        if (at != cells.end() && at->id == row.id) at->amount = row.amount, at->rewritten = row.rewritten != 0;
-      }
+  exchange_near(cells);
+  if (config_.small_cells == "redistribution") {
+    redistribute(flow_.gas(), next_, config_.small_cell, linear_ ? sweeper_.profile_kind : ProfileKind::all, cells);
+    exchange_near(cells);
   }
 
   Merging merging =
@@ -309,6 +279,46 @@ void CutCells::mix() {
   if (!merging.trouble.empty() && health_.good) health_ = {false, merging.trouble};
   store(cells);
   if (linear_) spread(cells);
+}
+
+void CutCells::exchange_near(std::vector<NearCell>& cells) {
+  if (comm_.size() == 1) return;
+  fluid::Grid const& grid = flow_.grid();
+  struct Row {
+    GlobalId id;
+    State amount;
+    std::int32_t rewritten, settled;
+  };
+  std::map<int, parallel::Bytes> to;
+  for (NearCell const& cell : cells) {
+    if (!cell.mine) continue;
+    std::vector<int> ranks;
+    CellBox const around =
+        grown(grid, {cell.cell, {cell.cell[0] + 1, cell.cell[1] + 1, cell.cell[2] + 1}}, mixing_halo);
+    CellIndex low{}, high{};  // groups do not reach through periodic sides
+    for (std::size_t d = 0; d < 3; ++d) {
+      low[d] = std::max(around.low[d], 0);
+      high[d] = std::min(around.high[d], grid.cells[d]) - 1;
+    }
+    auto const b0 = grid.block_position(grid.block_of(low)), b1 = grid.block_position(grid.block_of(high));
+    for (Index bz = b0[2]; bz <= b1[2]; ++bz)
+      for (Index by = b0[1]; by <= b1[1]; ++by)
+        for (Index bx = b0[0]; bx <= b1[0]; ++bx) {
+          int const rank = flow_.owner(grid.block_id({bx, by, bz}));
+          if (rank != comm_.rank() && std::find(ranks.begin(), ranks.end(), rank) == ranks.end()) ranks.push_back(rank);
+        }
+    for (int const rank : ranks) parallel::put(to[rank], Row{cell.id, cell.amount, cell.rewritten, cell.settled});
+  }
+  std::vector<parallel::Message> out;
+  for (auto& [rank, data] : to) out.push_back({rank, std::move(data)});
+  for (parallel::Message const& message : comm_.deliver(std::move(out)))
+    for (std::span<std::byte const> in(message.data); !in.empty();) {
+      Row const row = parallel::take<Row>(in);
+      auto const at = std::lower_bound(cells.begin(), cells.end(), row.id,
+                                       [](NearCell const& c, GlobalId id) { return c.id < id; });
+      if (at != cells.end() && at->id == row.id)
+        at->amount = row.amount, at->rewritten = row.rewritten != 0, at->settled = row.settled != 0;
+    }
 }
 
 void CutCells::store(std::vector<NearCell> const& cells) {

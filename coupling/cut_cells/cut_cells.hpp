@@ -61,6 +61,8 @@ class CutCells : public Effect {
   /// Collective. Merges with the cells of all ranks in sight; leaves those of this rank.
   Merging merge_everywhere(std::vector<NearCell>& cells);
   // pieces of them
+  /// Collective. Contents of the cells of other ranks in the halo.
+  void exchange_near(std::vector<NearCell>& cells);
   void store(std::vector<NearCell> const& cells);
   /// Collective. The members of every group take the linear profile of their group instead of its mean.
   void spread(std::vector<NearCell> const& cells);

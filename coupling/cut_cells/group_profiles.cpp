@@ -95,7 +95,7 @@ void CutCells::spread(std::vector<NearCell> const& cells) {
       around.push_back({around_groups_[slot], place_of[static_cast<std::size_t>(slot)] - group.place});
     }
     State const& mean = cells[static_cast<std::size_t>(group.members.front())].mean;
-    Profile profile;
+    Profile profile{};
     if (!fit_profile(sweeper_.profile_kind, flow_.gas(), grid.spacing, grid.dimension, mean, around, profile)) continue;
     // All members or none: the mean of the group is kept.
     bool const fits = std::all_of(group.members.begin(), group.members.end(), [&](Index m) {

@@ -162,8 +162,7 @@ void WallSweeper::set_mirrors(std::function<fluid::State(fluid::State const&, Mi
   images_.refresh(comm_, [](Block const& b, Index i, Index j, Index k) { return b.load(i, j, k); });
   for (auto& [id, wall] : blocks_) {
     Block& block = *flow_.find(id);
-    for (auto const& [c, m] : wall.solid)
-      block.store(c[0], c[1], c[2], m.slot >= 0 ? mirrored(image(m), m) : ambient);
+    for (auto const& [c, m] : wall.solid) block.store(c[0], c[1], c[2], m.slot >= 0 ? mirrored(image(m), m) : ambient);
   }
 }
 

@@ -8,7 +8,8 @@ namespace {
 
 /// Corner of a piece, m from the centre of its cell.
 Vec3 from_centre(Corner const& corner, CellIndex const& c, Vec3 const& h) {
-  return {(corner.point.x - c[0] - 0.5) * h.x, (corner.point.y - c[1] - 0.5) * h.y, (corner.point.z - c[2] - 0.5) * h.z};
+  return {(corner.point.x - c[0] - 0.5) * h.x, (corner.point.y - c[1] - 0.5) * h.y,
+          (corner.point.z - c[2] - 0.5) * h.z};
 }
 
 /// Mean of x^2 over a segment from a to b.

@@ -199,8 +199,8 @@ void WallSlopes::fit(Cell& cell, ProfileKind kind) const {
     Neighbour const& neighbour = neighbours_[static_cast<std::size_t>(cell.first) + i];
     around[i] = {states_[neighbour.slot], neighbour.offset};
   }
-  cell.flat = cell.slot < 0 || !fit_profile(kind, gas_, spacing_, dimension_, states_[cell.slot], {around.data(), n},
-                                            cell.profile);
+  cell.flat = cell.slot < 0 ||
+              !fit_profile(kind, gas_, spacing_, dimension_, states_[cell.slot], {around.data(), n}, cell.profile);
 }
 
 WallSlopes::Cell const* WallSlopes::find(GlobalId cell) const {

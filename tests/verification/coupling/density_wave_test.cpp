@@ -32,7 +32,9 @@ struct Wave {
     Real const a = degrees * std::numbers::pi / 180;
     return {std::cos(a), std::sin(a), 0};
   }
-  Vec3 wall_velocity() const { return moving ? speed("WAVE_V", 0.43) * normal() + speed("WAVE_S", 0.2) * along() : Vec3{}; }
+  Vec3 wall_velocity() const {
+    return moving ? speed("WAVE_V", 0.43) * normal() + speed("WAVE_S", 0.2) * along() : Vec3{};
+  }
   Vec3 velocity() const { return wall_velocity() + speed("WAVE_U", 1.2) * along(); }
   Vec3 point() const { return Vec3{0.5, 0.417, dimension == 2 ? 0 : 0.5} - (moving ? 0.06 : 0.0) * normal(); }
   static constexpr Real end = 0.25, width = 0.1;
@@ -65,13 +67,14 @@ std::string scene(Wave const& w, int cells) {
   std::string const body =
       w.dimension == 2
           ? polygon_body(rectangle(centre, {3, 1, 0}, w.degrees * std::numbers::pi / 180), motion)
-          : "[[solid.body]]\nmaterial = \"rigid\"\nshape = \"plate\"\ncentre = " + vector(centre, "m") +
-                "\naxis = [" + digits(w.normal().x) + ", " + digits(w.normal().y) + ", " + digits(w.normal().z) +
+          : "[[solid.body]]\nmaterial = \"rigid\"\nshape = \"plate\"\ncentre = " + vector(centre, "m") + "\naxis = [" +
+                digits(w.normal().x) + ", " + digits(w.normal().y) + ", " + digits(w.normal().z) +
                 "]\nlength = \"6 m\"\nwidth = \"6 m\"\nthickness = \"2 m\"\n" + motion;
   return "end_time = " + quantity(Wave::end, "s") + "\n[fluid]\nlow = " + corner(0) + "\nhigh = " + corner(1) +
          "\ncells = [" + n + ", " + n + (w.dimension == 3 ? ", " + n : "") + "]\nambient = " + state +
-         "\neuler = { order = " + std::to_string(w.order) + ", cfl = " + digits(speed("WAVE_CFL", 0.5)) + " }\n" + inflow_everywhere(state, w.dimension) +
-         "[solid]\n" + rigid_material(3) + body + "[coupling]\ncut_cells = { " + w.keys + " }\n";
+         "\neuler = { order = " + std::to_string(w.order) + ", cfl = " + digits(speed("WAVE_CFL", 0.5)) + " }\n" +
+         inflow_everywhere(state, w.dimension) + "[solid]\n" + rigid_material(3) + body + "[coupling]\ncut_cells = { " +
+         w.keys + " }\n";
 }
 
 /// Mean density of the fluid part of a cell: of the points of a fine lattice, those beside the wall by their share.
