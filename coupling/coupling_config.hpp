@@ -23,7 +23,7 @@ struct CutCellsConfig {
   double small_cell = 0.5;
   std::string small_cells = "merging";
   std::string wall_pressure = "half_riemann";
-  std::string profile = "density";
+  std::string profile = "linear";
   std::optional<BodyWallConfig> wall;
   static void keys(Keys<CutCellsConfig>& k) {
     k("small_cell", &CutCellsConfig::small_cell, "1", "cells with less than this fraction of fluid are small")

@@ -143,7 +143,8 @@ void CutCells::update_contents(Real dt) {
       Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
       Real const chi = piece_factor_[static_cast<std::size_t>(f)];
       // The same numbers as the force on the solid, with the opposite sign.
-      Vec3 force{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y, -chi * pressure.z * piece.area.z};
+      Vec3 const p = pressure + piece_pressure_[static_cast<std::size_t>(f)] * Vec3{1, 1, 1};
+      Vec3 force{-chi * p.x * piece.area.x, -chi * p.y * piece.area.y, -chi * p.z * piece.area.z};
       if (viscous_) {
         PieceFriction const& friction = (*viscous_)[static_cast<std::size_t>(f)];
         force += friction.force;
@@ -182,7 +183,9 @@ void CutCells::boundary_account(Real dt) {
             c[dir] = cell, c[t0] = a, c[t1] = b;
             CellIndex face = c;
             face[dir] += side;
-            Real const area = next_.aperture({first[0] + c[0], first[1] + c[1], first[2] + c[2]}, d, side);
+            CellIndex const global{first[0] + c[0], first[1] + c[1], first[2] + c[2]};
+            if (linear_) add(sum, side == 0 ? dt : -dt, profile_flux(global, d, side));
+            Real const area = next_.aperture(global, d, side);
             if (area == 0) continue;
             State const& f = wall.flux[dir][wall.face(d, face[0], face[1], face[2])];
             add(sum, (side == 0 ? dt : -dt) * area, f);

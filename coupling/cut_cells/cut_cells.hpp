@@ -79,6 +79,7 @@ class CutCells : public Effect {
   fluid::State content_before(CellIndex c) const;
   /// What the profiles add to the flux through a face of `c`, times its area: of its open part, whose centroid is not
   /// that of the face, and of the part that the wall opened or closed in this step. 0 at sides of the domain.
+  Real pressure_beside_centre(CellIndex c, Piece const& piece) const;
   fluid::State profile_flux(CellIndex c, int d, int side) const;
   Verdict judge() const;
   void account(Ledger& ledger);
@@ -103,6 +104,7 @@ class CutCells : public Effect {
   std::vector<Content> kept_, kept_saved_;  ///< contents of covered cells, by id
   std::vector<Content> contents_;           ///< of the cells the balance rewrites, by id
   std::vector<Real> piece_factor_;          ///< chi of each piece of next_
+  std::vector<Real> piece_pressure_;        ///< what the profile adds to the pressure at the centre of the cell, Pa
   std::unique_ptr<ViscousWall> viscous_;    ///< null: the gas has no viscosity
   bool sources_ = false;
   std::vector<Swept> swept_;

@@ -75,17 +75,30 @@ void WallSlopes::plan(parallel::Comm& comm, fluid::Flow& flow, WallRecord const&
     return centroid[at];
   };
   std::vector<GlobalId> of, wanted;  // of each neighbour
+  std::vector<GlobalId> sources(ids_.size());
   for (std::size_t n = 0; n < ids_.size(); ++n) {
     CellIndex const c = cell_from_id(grid, ids_[n]);
     Cell& p = cells_[n];
     p.first = p.last = static_cast<Index>(neighbours_.size());
-    if (record.solid(c)) continue;
+    CellIndex source = c;
+    if (record.solid(c)) {
+      // What is about to open: the profile of the nearest fluid.
+      Real nearest = -1;
+      for_neighbourhood(grid, c, 1, [&](CellIndex m) {
+        if (!grid.inside(m) || record.solid(m)) return;
+        Real const r2 = norm2(grid.centre(m) + place(m) - grid.centre(c));
+        if (nearest < 0 || r2 < nearest) nearest = r2, source = m;
+      });
+      if (nearest < 0) continue;
+    }
+    sources[n] = grid.cell_id(source);
+    Vec3 const centroid = grid.centre(source) + place(source);
     p.slot = 0;
-    p.centroid = place(c);
-    wanted.push_back(ids_[n]);
-    for_neighbourhood(grid, c, 1, [&](CellIndex m) {
-      if (m == c || !grid.inside(m) || record.solid(m) || !sees(record, c, m)) return;
-      neighbours_.push_back({0, grid.centre(m) + place(m) - grid.centre(c) - p.centroid});
+    p.centroid = centroid - grid.centre(c);
+    wanted.push_back(sources[n]);
+    for_neighbourhood(grid, source, 1, [&](CellIndex m) {
+      if (m == source || !grid.inside(m) || record.solid(m) || !sees(record, source, m)) return;
+      neighbours_.push_back({0, grid.centre(m) + place(m) - centroid});
       of.push_back(grid.cell_id(m));
     });
     p.last = static_cast<Index>(neighbours_.size());
@@ -95,7 +108,7 @@ void WallSlopes::plan(parallel::Comm& comm, fluid::Flow& flow, WallRecord const&
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   states_.plan(comm, flow, std::move(wanted));
   for (std::size_t n = 0; n < ids_.size(); ++n)
-    if (cells_[n].slot >= 0) cells_[n].slot = states_.slot(ids_[n]);
+    if (cells_[n].slot >= 0) cells_[n].slot = states_.slot(sources[n]);
   for (std::size_t n = 0; n < of.size(); ++n) neighbours_[n].slot = states_.slot(of[n]);
 }
 
@@ -221,7 +234,7 @@ Profile const* WallSlopes::profile(GlobalId cell) const {
 
 State const* WallSlopes::mean(GlobalId cell) const {
   Cell const* const p = find(cell);
-  return p && !p->flat ? &states_[p->slot] : nullptr;
+  return p && p->slot >= 0 ? &states_[p->slot] : nullptr;
 }
 
 std::size_t WallSlopes::bytes() const {

@@ -30,7 +30,8 @@ bool sees(WallRecord const& record, CellIndex c, CellIndex to);
 
 class WallSlopes {
  public:
-  /// Collective. `cells`: global ids, sorted, unique; those that are solid in `record` have no profile.
+  /// Collective. `cells`: global ids, sorted, unique; a cell that is solid in `record`
+  /// has the profile of the nearest fluid among its neighbours, if any.
   void plan(parallel::Comm& comm, fluid::Flow& flow, WallRecord const& record, std::vector<GlobalId> cells);
   /// Collective. Gradients of the states that `read` gives, 0 beside jumps and vacuum.
   void refresh(parallel::Comm& comm, ReadCell const& read, ProfileKind kind);
@@ -42,7 +43,7 @@ class WallSlopes {
   fluid::State value(GlobalId cell, fluid::State const& u, Vec3 const& x) const;
   /// Null: flat.
   Profile const* profile(GlobalId cell) const;
-  /// The mean of `cell` at the last refresh; null: no profile, or a flat one.
+  /// The mean that the profile of `cell` has at the centroid, at the last refresh; null: unknown.
   fluid::State const* mean(GlobalId cell) const;
   std::size_t bytes() const;
 

@@ -86,7 +86,7 @@ void WallSweeper::make_profiles(WallRecord const& next, bool same) {
     std::vector<GlobalId> cells;
     for (WallRecord const* r : {record_, &next})
       for (CutCell const& cut : r->geometry.cells)
-        if (grid.inside(cut.cell) && !record_->solid(cut.cell) &&
+        if (grid.inside(cut.cell) &&
             std::any_of(near.begin(), near.end(), [&](CellBox const& b) { return b.holds(cut.cell); }))
           cells.push_back(grid.cell_id(cut.cell));
     std::sort(cells.begin(), cells.end());
