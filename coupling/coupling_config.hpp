@@ -23,8 +23,9 @@ struct CutCellsConfig {
   double small_cell = 0.5;
   std::string small_cells = "merging";
   std::string wall_pressure = "half_riemann";
-  std::string profile = "linear";
+  std::string profile = "constant";
   std::optional<BodyWallConfig> wall;
+  Location at;
   static void keys(Keys<CutCellsConfig>& k) {
     k("small_cell", &CutCellsConfig::small_cell, "1", "cells with less than this fraction of fluid are small")
         .above(0)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/errors.hpp"
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/mixing.hpp"
 #include "coupling/cut_cells/redistribution.hpp"
@@ -81,6 +82,11 @@ void CutCells::rebuild_record() {
 }
 
 fluid::ViscousWalls& CutCells::add_viscosity(fluid::Transport const& transport) {
+  if (linear_)
+    scene_error(config_.at,
+                "coupling.cut_cells.profile = \"" + config_.profile +
+                    "\" does not go together with fluid.viscosity: friction at the walls is taken from full "
+                    "cells beside cut cells of constant state; leave it \"constant\"");
   viscous_ = std::make_unique<ViscousWall>(config_.wall.value_or(BodyWallConfig{}), transport, flow_, sweeper_, comm_);
   return *viscous_;
 }

@@ -78,9 +78,10 @@ class CutCells : public Effect {
   void rebuild_record();
   fluid::State content_before(CellIndex c) const;
   /// What the profiles add to the flux through a face of `c`, times its area: of its open part, whose centroid is not
-  /// that of the face, and of the part that the wall opened or closed in this step. 0 at sides of the domain.
-  Real pressure_beside_centre(CellIndex c, Piece const& piece) const;
+  /// that of the face, and of the part that the wall opened or closed in this step.
   fluid::State profile_flux(CellIndex c, int d, int side) const;
+  /// Pressure of the profile of `c` at a piece less that at the centre of the cell, which the sweeps give, Pa.
+  Real pressure_beside_centre(CellIndex c, Piece const& piece) const;
   Verdict judge() const;
   void account(Ledger& ledger);
   void digest(parallel::Digest& digest) const;

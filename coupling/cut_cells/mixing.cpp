@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/near_cells.hpp"
 
 namespace brisance::coupling {
@@ -110,9 +111,9 @@ class Merger {
       Real best_score = 0;
       for (Index i = group; i >= 0; i = next_[at(i)])
         for_shell(grid_, cell(i).cell, distance, [&](CellIndex n) {
-          Index const j = find(n);
+          Index const j = near_.find(n);
           if (j >= 0 && root(j) != group && cell(j).volume > covered_fraction * full_)
-            consider(j, cell(j).volume, best, best_score);
+            NearCells::consider(j, cell(j).volume, best, best_score);
         });
       if (best >= 0) return best;
     }
