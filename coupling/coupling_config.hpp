@@ -37,8 +37,8 @@ struct CutCellsConfig {
       "pressure on the wall: that of the cell, or corrected by the half-Riemann factor chi*")
         .one_of({"cell", "half_riemann"});
     k("profile", &CutCellsConfig::profile, "",
-      "what varies linearly within cut cells, for what passes partly open faces: nothing, the density, or all")
-        .one_of({"constant", "density", "linear"});
+      "what varies linearly within cut cells, for what passes partly open faces: nothing or the density")
+        .one_of({"constant", "density"});
     k("wall", &CutCellsConfig::wall, "",
       "fluid.viscosity: friction and heat at the bodies; not given: they hold the gas and pass no heat");
   }

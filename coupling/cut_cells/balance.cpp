@@ -143,8 +143,7 @@ void CutCells::update_contents(Real dt) {
       Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
       Real const chi = piece_factor_[static_cast<std::size_t>(f)];
       // The same numbers as the force on the solid, with the opposite sign.
-      Vec3 const p = pressure + piece_pressure_[static_cast<std::size_t>(f)] * Vec3{1, 1, 1};
-      Vec3 force{-chi * p.x * piece.area.x, -chi * p.y * piece.area.y, -chi * p.z * piece.area.z};
+      Vec3 force{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y, -chi * pressure.z * piece.area.z};
       if (viscous_) {
         PieceFriction const& friction = (*viscous_)[static_cast<std::size_t>(f)];
         force += friction.force;

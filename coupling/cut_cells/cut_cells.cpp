@@ -36,7 +36,6 @@ CutCells::CutCells(CutCellsConfig const& config, fluid::Flow& flow, solid::Solid
     r->set_region(region);
   }
   sweeper_.ambient = ambient;
-  sweeper_.profile_kind = config.profile == "linear" ? ProfileKind::all : ProfileKind::density;
   flow.set_sweeper(&sweeper_);
 }
 

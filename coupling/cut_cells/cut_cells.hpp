@@ -80,8 +80,6 @@ class CutCells : public Effect {
   /// What the profiles add to the flux through a face of `c`, times its area: of its open part, whose centroid is not
   /// that of the face, and of the part that the wall opened or closed in this step.
   fluid::State profile_flux(CellIndex c, int d, int side) const;
-  /// Pressure of the profile of `c` at a piece less that at the centre of the cell, which the sweeps give, Pa.
-  Real pressure_beside_centre(CellIndex c, Piece const& piece) const;
   Verdict judge() const;
   void account(Ledger& ledger);
   void digest(parallel::Digest& digest) const;
@@ -105,7 +103,6 @@ class CutCells : public Effect {
   std::vector<Content> kept_, kept_saved_;  ///< contents of covered cells, by id
   std::vector<Content> contents_;           ///< of the cells the balance rewrites, by id
   std::vector<Real> piece_factor_;          ///< chi of each piece of next_
-  std::vector<Real> piece_pressure_;        ///< what the profile adds to the pressure at the centre of the cell, Pa
   std::unique_ptr<ViscousWall> viscous_;    ///< null: the gas has no viscosity
   bool sources_ = false;
   std::vector<Swept> swept_;

@@ -63,21 +63,10 @@ void CutCells::find_vacuum(WallRecord const& record, bool initial) {
   std::sort(vacuum_.begin(), vacuum_.end());
 }
 
-Real CutCells::pressure_beside_centre(CellIndex c, Piece const& piece) const {
-  if (sweeper_.profile_kind != ProfileKind::all) return 0;
-  WallSlopes const& profiles = sweeper_.profiles();
-  GlobalId const id = flow_.grid().cell_id(c);
-  if (!profiles.profile(id)) return 0;
-  State const& u = *profiles.mean(id);
-  return flow_.gas().pressure(profiles.value(id, u, piece.centroid - flow_.grid().centre(c))) -
-         flow_.gas().pressure(profiles.value(id, u, {}));
-}
-
 void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces) {
   fluid::Grid const& grid = flow_.grid();
   forces.clear();
   piece_factor_.assign(record.geometry.pieces.size(), 1);
-  piece_pressure_.assign(record.geometry.pieces.size(), 0);
   find_vacuum(record, initial);
   for (CutCell const& cut : record.geometry.cells) {
     if (!owned(cut.cell)) continue;
@@ -100,10 +89,7 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
       Real const chi =
           vacuum ? 1 : half_riemann(u, record.wall_velocity(piece.triangle, piece.bary_centroid), piece.area);
       piece_factor_[static_cast<std::size_t>(f)] = chi;
-      Real& change = piece_pressure_[static_cast<std::size_t>(f)];
-      if (linear_ && !initial && !vacuum) change = pressure_beside_centre(cut.cell, piece);
-      Vec3 const p = pressure + change * Vec3{1, 1, 1};
-      Vec3 force{-chi * p.x * piece.area.x, -chi * p.y * piece.area.y, -chi * p.z * piece.area.z};
+      Vec3 force{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y, -chi * pressure.z * piece.area.z};
       if (viscous_ && !initial) force += (*viscous_)[static_cast<std::size_t>(f)].force;
       GlobalId const triangle = record.triangles[static_cast<std::size_t>(piece.triangle)].id;
       GlobalId const cell = grid.cell_id(cut.cell);
