@@ -22,12 +22,18 @@ struct BodyWallConfig {
 /// Moving cut cells (theory/coupling.md 1 to 5).
 struct CutCellsConfig {
   double small_cell = 0.5;
+  std::string small_cells = "merging";
   std::string wall_pressure = "half_riemann", load = "absolute";
+  std::string profile = "constant";
   std::optional<BodyWallConfig> wall;
+  Location at;
   static void keys(Keys<CutCellsConfig>& k) {
-    k("small_cell", &CutCellsConfig::small_cell, "1", "cells with less than this fraction of fluid are merged")
+    k("small_cell", &CutCellsConfig::small_cell, "1", "cells with less than this fraction of fluid are small")
         .above(0)
         .at_most(0.5);
+    k("small_cells", &CutCellsConfig::small_cells, "",
+      "what becomes of them: merged with neighbours, or state redistribution among these, and merging where that fails")
+        .one_of({"merging", "redistribution"});
     k("wall_pressure", &CutCellsConfig::wall_pressure, "",
       "pressure on the wall: that of the cell, or corrected by the half-Riemann factor chi*")
         .one_of({"cell", "half_riemann"});
@@ -35,6 +41,9 @@ struct CutCellsConfig {
       "pressure that the bodies feel: absolute: all of it; relative: what it differs by from fluid.ambient, so that a "
       "structure in still air is exactly at rest, as one that was built in that air")
         .one_of({"absolute", "relative"});
+    k("profile", &CutCellsConfig::profile, "",
+      "what varies linearly within cut cells, for what passes partly open faces: nothing or the density")
+        .one_of({"constant", "density"});
     k("wall", &CutCellsConfig::wall, "",
       "fluid.viscosity: friction and heat at the bodies; not given: they hold the gas and pass no heat");
   }
@@ -55,17 +64,18 @@ struct CouplingConfig {
   Location at;
   int largest_sub_steps() const { return sub_steps.value_or(most_sub_steps); }
   TimeCoupling time_coupling() const {
-    return scheme == "lag"    ? TimeCoupling::lag
-           : scheme == "semi" ? TimeCoupling::semi
-                              : TimeCoupling::explicit_load;
+    return scheme == "lag" ? TimeCoupling::lag : scheme == "semi" ? TimeCoupling::semi : TimeCoupling::explicit_load;
   }
   static void keys(Keys<CouplingConfig>& k) {
     k("scheme", &CouplingConfig::scheme, "",
-      "how gas and solid alternate in a step: lag: on the boundary predicted under the last loads; semi: repeated until "
-      "boundary and loads agree; explicit: loads of the boundary at the start of the step, inexact for bodies that turn")
+      "how gas and solid alternate in a step: lag: on the boundary predicted under the last loads; semi: repeated "
+      "until "
+      "boundary and loads agree; explicit: loads of the boundary at the start of the step, inexact for bodies that "
+      "turn")
         .one_of({"lag", "semi", "explicit"});
     k("light_solids", &CouplingConfig::light_solids, "",
-      "where a particle weighs less than 0.7 of the gas in a cell beside it: limit the step to that share of the gas's, "
+      "where a particle weighs less than 0.7 of the gas in a cell beside it: limit the step to that share of the "
+      "gas's, "
       "or only warn at the start")
         .one_of({"limit", "warn"});
     k("sub_steps", &CouplingConfig::sub_steps, "",

@@ -45,6 +45,9 @@ brisance_same_digest(leave-explicit ${PROJECT_SOURCE_DIR}/tests/support/scenes/b
 brisance_same_digest(viscous-explicit ${PROJECT_SOURCE_DIR}/tests/support/scenes/viscous-bodies.toml 40
                      --set "coupling.scheme=\"explicit\"" --set coupling.sub_steps=2)
 brisance_same_digest(bodies-leave ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-leave.toml 240)
+brisance_same_digest(bodies-apart-density ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40
+                     --set "coupling.cut_cells.profile=\"density\"" --set "coupling.cut_cells.small_cells=\"redistribution\"")
+brisance_same_digest(bursting-shell-density ${scenes}/bursting-shell.toml 80 --set "coupling.cut_cells.profile=\"density\"")
 brisance_same_digest(jwl-charge ${PROJECT_SOURCE_DIR}/tests/support/scenes/jwl-charge.toml 60)
 brisance_same_digest(rejected-pairs ${PROJECT_SOURCE_DIR}/tests/support/scenes/rejected-pairs.toml 60)
 brisance_same_digest(blast-in-a-box ${PROJECT_SOURCE_DIR}/tests/support/scenes/blast-in-a-box.toml 24)

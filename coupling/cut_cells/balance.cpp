@@ -36,11 +36,19 @@ void CutCells::transfers() {
       Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
       swept_.clear();
       swept(next_.lattice(), next_.geometry, piece, next_.triangles[static_cast<std::size_t>(piece.triangle)], swept_);
+      SurfaceTriangle const& triangle = next_.triangles[static_cast<std::size_t>(piece.triangle)];
+      Vec3 before;
+      for (std::size_t a = 0; a < 3; ++a) before += piece.bary_centroid[a] * triangle.x_old[a];
+      Vec3 const middle = 0.5 * (before + piece.centroid);
+      Vec3 const velocity = next_.wall_velocity(piece.triangle, piece.bary_centroid);
       for (Swept const& s : swept_) {
         // Both cells inside, or the exchange is dropped for both.
         if (s.cell == cut.cell || !grid.inside(s.cell) || s.volume == 0) continue;
         if (!here && !owned(s.cell)) continue;
-        transfers_.push_back({to, grid.cell_id(s.cell), s.volume});
+        Vec3 place = middle - grid.centre(s.cell);
+        for (int d = 0; d < 3; ++d)
+          place[d] = d < grid.dimension ? clamp(place[d], -0.5 * grid.spacing[d], 0.5 * grid.spacing[d]) : 0;
+        transfers_.push_back({to, grid.cell_id(s.cell), s.volume, place, piece.area, velocity});
         wanted.push_back(transfers_.back().from);
       }
     }
@@ -96,7 +104,12 @@ void CutCells::update_contents(Real dt) {
 
   // In the order of pieces, which is that of cells and triangles on every rank.
   for (Transfer const& t : transfers_) {
-    State const& u = swept_states_[swept_states_.slot(t.from)];
+    State u = swept_states_[swept_states_.slot(t.from)];
+    if (linear_ && u[0] > 0) {
+      // Gas that slides along the wall: the fluxes pass what stands half a step upstream.
+      Vec3 const slip = beside(t.area, Vec3{u[1], u[2], u[3]} / u[0] - t.wall_velocity);
+      u = sweeper_.profiles().value(t.from, u, t.place - 0.5 * dt * slip);
+    }
     if (State* to = content(t.to)) add(*to, t.volume, u);
     if (State* from = content(t.from)) add(*from, -t.volume, u);
   }
@@ -113,6 +126,7 @@ void CutCells::update_contents(Real dt) {
         CellIndex face = l;
         face[dir] += side;
         Real const aperture = next_.aperture(cell, d, side);
+        if (linear_) add(c.amount, side == 0 ? dt : -dt, profile_flux(cell, d, side));
         if (aperture == 0) continue;
         std::size_t const at = wall.face(d, face[0], face[1], face[2]);
         add(c.amount, (side == 0 ? dt : -dt) * aperture, wall.flux[dir][at]);
@@ -217,7 +231,9 @@ void CutCells::boundary_account(Real dt) {
             c[dir] = cell, c[t0] = a, c[t1] = b;
             CellIndex face = c;
             face[dir] += side;
-            Real const area = next_.aperture({first[0] + c[0], first[1] + c[1], first[2] + c[2]}, d, side);
+            CellIndex const global{first[0] + c[0], first[1] + c[1], first[2] + c[2]};
+            if (linear_) add(sum, side == 0 ? dt : -dt, profile_flux(global, d, side));
+            Real const area = next_.aperture(global, d, side);
             if (area == 0) continue;
             State const& f = wall.flux[dir][wall.face(d, face[0], face[1], face[2])];
             add(sum, (side == 0 ? dt : -dt) * area, f);

@@ -14,6 +14,12 @@ inline Real smallest_spacing(fluid::Grid const& grid) {
   return h;
 }
 
+/// The part of v that lies in the plane across `normal`, which may have any length.
+inline Vec3 beside(Vec3 const& normal, Vec3 const& v) {
+  Real const n2 = norm2(normal);
+  return n2 > 0 ? v - dot(v, normal) / n2 * normal : Vec3{};
+}
+
 inline CellIndex cell_of(fluid::Grid const& grid, Vec3 const& x) {
   CellIndex c{0, 0, 0};
   for (int d = 0; d < grid.dimension; ++d)

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "core/base/errors.hpp"
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/mixing.hpp"
+#include "coupling/cut_cells/redistribution.hpp"
+#include "coupling/cut_cells/wall_centroids.hpp"
 #include "parallel/error.hpp"
 
 namespace brisance::coupling {
@@ -21,6 +24,7 @@ CutCells::CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flo
                    std::shared_ptr<solid::Surface const> surface, fluid::State const& ambient, parallel::Comm& comm)
     : config_(config),
       scheme_(scheme),
+      linear_(config.profile != "constant"),
       flow_(flow),
       solid_(solid),
       comm_(comm),
@@ -81,6 +85,11 @@ void CutCells::rebuild_record() {
 }
 
 fluid::ViscousWalls& CutCells::add_viscosity(fluid::Transport const& transport) {
+  if (linear_)
+    scene_error(config_.at,
+                "coupling.cut_cells.profile = \"" + config_.profile +
+                    "\" does not go together with fluid.viscosity: friction at the walls is taken from full "
+                    "cells beside cut cells of constant state; leave it \"constant\"");
   viscous_ = std::make_unique<ViscousWall>(config_.wall.value_or(BodyWallConfig{}), transport, flow_, sweeper_, comm_);
   return *viscous_;
 }
@@ -184,6 +193,7 @@ void CutCells::new_geometry() {
     build_next();
   }
   same_ = !moved_;
+  if (linear_) sweeper_.make_profiles(next_, same_);
 }
 
 bool CutCells::build_next() {
@@ -239,6 +249,8 @@ void CutCells::mix() {
       for (int side = 0; side < 2; ++side)
         cell.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] = next_.aperture(cell.cell, d, side);
     cell.mine = owned(cell.cell);
+    if (linear_ || config_.small_cells == "redistribution")
+      cell.place = grid.centre(cell.cell) + fluid_centroid(next_, cell.cell);
     while (next_content < contents_.size() && contents_[next_content].cell < cell.id) ++next_content;
     if (next_content < contents_.size() && contents_[next_content].cell == cell.id) {
       cell.amount = contents_[next_content].amount;
@@ -250,42 +262,10 @@ void CutCells::mix() {
       for (Real& x : cell.amount) x *= cell.volume;
     }
   }
-  if (comm_.size() > 1) {
-    struct Row {
-      GlobalId id;
-      State amount;
-      std::int64_t rewritten;
-    };
-    std::map<int, parallel::Bytes> to;
-    for (NearCell const& cell : cells) {
-      if (!cell.mine) continue;
-      std::vector<int> ranks;
-      CellBox const around =
-          grown(grid, {cell.cell, {cell.cell[0] + 1, cell.cell[1] + 1, cell.cell[2] + 1}}, mixing_halo);
-      CellIndex low{}, high{};  // groups do not reach through periodic sides
-      for (std::size_t d = 0; d < 3; ++d) {
-        low[d] = std::max(around.low[d], 0);
-        high[d] = std::min(around.high[d], grid.cells[d]) - 1;
-      }
-      auto const b0 = grid.block_position(grid.block_of(low)), b1 = grid.block_position(grid.block_of(high));
-      for (Index bz = b0[2]; bz <= b1[2]; ++bz)
-        for (Index by = b0[1]; by <= b1[1]; ++by)
-          for (Index bx = b0[0]; bx <= b1[0]; ++bx) {
-            int const rank = flow_.owner(grid.block_id({bx, by, bz}));
-            if (rank != comm_.rank() && std::find(ranks.begin(), ranks.end(), rank) == ranks.end())
-              ranks.push_back(rank);
-          }
-      for (int const rank : ranks) parallel::put(to[rank], Row{cell.id, cell.amount, cell.rewritten});
-    }
-    std::vector<parallel::Message> out;
-    for (auto& [rank, data] : to) out.push_back({rank, std::move(data)});
-    for (parallel::Message const& message : comm_.deliver(std::move(out)))
-      for (std::span<std::byte const> in(message.data); !in.empty();) {
-        Row const row = parallel::take<Row>(in);
-        auto const at = std::lower_bound(cells.begin(), cells.end(), row.id,
-                                         [](NearCell const& c, GlobalId id) { return c.id < id; });
-        if (at != cells.end() && at->id == row.id) at->amount = row.amount, at->rewritten = row.rewritten != 0;
-      }
+  exchange_near(cells);
+  if (config_.small_cells == "redistribution") {
+    redistribute(flow_.gas(), next_, config_.small_cell, linear_ ? sweeper_.profile_kind : ProfileKind::all, cells);
+    exchange_near(cells);
   }
 
   Merging merging =
@@ -296,6 +276,53 @@ void CutCells::mix() {
     if (outgrown > 0) merging = merge_everywhere(cells);
   }
   if (!merging.trouble.empty() && health_.good) health_ = {false, merging.trouble};
+  store(cells);
+  if (linear_) spread(cells);
+}
+
+void CutCells::exchange_near(std::vector<NearCell>& cells) {
+  if (comm_.size() == 1) return;
+  fluid::Grid const& grid = flow_.grid();
+  struct Row {
+    GlobalId id;
+    State amount;
+    std::int32_t rewritten, settled;
+  };
+  std::map<int, parallel::Bytes> to;
+  for (NearCell const& cell : cells) {
+    if (!cell.mine) continue;
+    std::vector<int> ranks;
+    CellBox const around =
+        grown(grid, {cell.cell, {cell.cell[0] + 1, cell.cell[1] + 1, cell.cell[2] + 1}}, mixing_halo);
+    CellIndex low{}, high{};  // groups do not reach through periodic sides
+    for (std::size_t d = 0; d < 3; ++d) {
+      low[d] = std::max(around.low[d], 0);
+      high[d] = std::min(around.high[d], grid.cells[d]) - 1;
+    }
+    auto const b0 = grid.block_position(grid.block_of(low)), b1 = grid.block_position(grid.block_of(high));
+    for (Index bz = b0[2]; bz <= b1[2]; ++bz)
+      for (Index by = b0[1]; by <= b1[1]; ++by)
+        for (Index bx = b0[0]; bx <= b1[0]; ++bx) {
+          int const rank = flow_.owner(grid.block_id({bx, by, bz}));
+          if (rank != comm_.rank() && std::find(ranks.begin(), ranks.end(), rank) == ranks.end()) ranks.push_back(rank);
+        }
+    for (int const rank : ranks) parallel::put(to[rank], Row{cell.id, cell.amount, cell.rewritten, cell.settled});
+  }
+  std::vector<parallel::Message> out;
+  for (auto& [rank, data] : to) out.push_back({rank, std::move(data)});
+  for (parallel::Message const& message : comm_.deliver(std::move(out)))
+    for (std::span<std::byte const> in(message.data); !in.empty();) {
+      Row const row = parallel::take<Row>(in);
+      auto const at = std::lower_bound(cells.begin(), cells.end(), row.id,
+                                       [](NearCell const& c, GlobalId id) { return c.id < id; });
+      if (at != cells.end() && at->id == row.id)
+        at->amount = row.amount, at->rewritten = row.rewritten != 0, at->settled = row.settled != 0;
+    }
+}
+
+void CutCells::store(std::vector<NearCell> const& cells) {
+  fluid::Grid const& grid = flow_.grid();
+  Real const full = grid.cell_volume();
   kept_.clear();
   for (NearCell const& cell : cells) {
     if (!cell.mine || !(cell.rewritten || cell.grouped)) continue;
@@ -332,7 +359,6 @@ Merging CutCells::merge_everywhere(std::vector<NearCell>& cells) {
     }
   std::sort(all.begin(), all.end(), [](NearCell const& a, NearCell const& b) { return a.id < b.id; });
   Merging const merging = merge_small_cells(flow_.grid(), config_.small_cell, Sight::everything, all);
-  std::erase_if(all, [](NearCell const& c) { return !c.mine; });
   cells = std::move(all);
   return merging;
 }

@@ -79,6 +79,11 @@ class CutCells : public Effect {
   /// Collective. A remark where the initial gas outweighs the solid.
   void remark_on_start();
   // pieces of them
+  /// Collective. Contents of the cells of other ranks in the halo.
+  void exchange_near(std::vector<NearCell>& cells);
+  void store(std::vector<NearCell> const& cells);
+  /// Collective. The members of every group take the linear profile of their group instead of its mean.
+  void spread(std::vector<NearCell> const& cells);
   void wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces);
   /// What a part of the wall with this velocity receives in a step is taken from `amount`.
   void take(Vec3 const& force, Real heat, Vec3 const& velocity, Real dt, fluid::State& amount);
@@ -102,6 +107,9 @@ class CutCells : public Effect {
   Vec3 force_on_solid(Real chi, Vec3 const& pressure, Vec3 const& area) const;
   void rebuild_record();
   fluid::State content_before(CellIndex c) const;
+  /// What the profiles add to the flux through a face of `c`, times its area: of its open part, whose centroid is not
+  /// that of the face, and of the part that the wall opened or closed in this step.
+  fluid::State profile_flux(CellIndex c, int d, int side) const;
   Verdict judge() const;
   void account(Ledger& ledger);
   void digest(parallel::Digest& digest) const;
@@ -110,6 +118,7 @@ class CutCells : public Effect {
 
   CutCellsConfig config_;
   TimeCoupling scheme_;
+  bool linear_;  ///< profiles in cut cells
   fluid::Flow& flow_;
   solid::Solid& solid_;
   parallel::Comm& comm_;
@@ -137,10 +146,12 @@ class CutCells : public Effect {
   struct Transfer {
     GlobalId to, from;
     Real volume;
+    Vec3 place;  ///< about where it comes from, m from the centre of `from`
+    Vec3 area, wall_velocity;
   };
   std::vector<Transfer> transfers_;
   std::vector<Content> moved_contents_;
-  StateGather swept_states_;
+  StateGather swept_states_, around_groups_;
   CellSet near_;  ///< work space of mix
   Verdict health_;
 

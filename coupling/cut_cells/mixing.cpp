@@ -1,10 +1,10 @@
 #include "coupling/cut_cells/mixing.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "coupling/cut_cells/cell_geometry.hpp"
+#include "coupling/cut_cells/near_cells.hpp"
 
 namespace brisance::coupling {
 
@@ -12,19 +12,15 @@ using fluid::State;
 
 namespace {
 
-/// Outside the admissible set beyond rounding.
-bool inadmissible(Real volume, State const& m) {
-  if (volume <= 0) return m != State{};
-  if (!(m[0] >= 0) || !std::isfinite(m[4])) return true;
-  if (m[0] == 0) return m[4] < 0;
-  Real const internal = m[4] - 0.5 * (m[1] * m[1] + m[2] * m[2] + m[3] * m[3]) / m[0];
-  return !(internal >= -1e-13 * std::abs(m[4]));
-}
-
 class Merger {
  public:
   Merger(fluid::Grid const& grid, Real small_cell, Sight sight, std::vector<NearCell>& cells)
-      : grid_(grid), full_(grid.cell_volume()), small_(small_cell * full_), sight_(sight), cells_(cells) {
+      : near_(grid, cells),
+        grid_(grid),
+        full_(grid.cell_volume()),
+        small_(small_cell * full_),
+        sight_(sight),
+        cells_(cells) {
     parent_.resize(cells.size());
     std::iota(parent_.begin(), parent_.end(), Index{0});
     for (NearCell& c : cells_) c.grouped = false;
@@ -35,8 +31,8 @@ class Merger {
       NearCell const& c = cell(i);
       bool const covered = c.volume <= covered_fraction * full_;
       if (c.amount == State{}) continue;  // a void has nothing to share, in a crack that opens as in a covered cell
-      if (!covered && (c.volume >= small_ || drains(c))) continue;
-      Index const t = target(i);
+      if (c.settled || (!covered && (c.volume >= small_ || near_.drains(c)))) continue;
+      Index const t = near_.target(i, {});
       if (t >= 0) unite(i, t);
     }
     for (;;) {  // every round unites groups, so that it ends
@@ -59,13 +55,6 @@ class Merger {
   static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
   Index count() const { return static_cast<Index>(cells_.size()); }
   NearCell& cell(Index i) { return cells_[at(i)]; }
-  Index find(CellIndex c) const {
-    if (!grid_.inside(c)) return -1;
-    GlobalId const id = grid_.cell_id(c);
-    auto const f =
-        std::lower_bound(cells_.begin(), cells_.end(), id, [](NearCell const& n, GlobalId x) { return n.id < x; });
-    return f != cells_.end() && f->id == id ? static_cast<Index>(f - cells_.begin()) : -1;
-  }
   Index root(Index i) {
     while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
     return i;
@@ -73,44 +62,6 @@ class Merger {
   void unite(Index a, Index b) {
     a = root(a), b = root(b);
     if (a != b) parent_[at(std::max(a, b))] = std::min(a, b);  // the root is the lowest id: no order of visit enters
-  }
-
-  /// A cell of a gap between walls lets its content out as fast as a full cell, when its faces are as open as it is,
-  /// and its walls are not about to crush or to stretch it: it keeps its own state, and gas enters a crack cell by
-  /// cell.
-  bool drains(NearCell const& c) const {
-    Real widest = 0;
-    for (int d = 0; d < grid_.dimension; ++d)
-      for (Real const a : c.aperture[static_cast<std::size_t>(d)]) widest = max(widest, a / grid_.face_area(d));
-    return widest <= 1.1 * c.volume / full_ && c.volume <= 2 * c.volume_before && c.volume_before <= 2 * c.volume;
-  }
-
-  Index target(Index i) {
-    NearCell const& c = cell(i);
-    Index best = -1;
-    Real best_score = 0;
-    bool open = false;
-    for (int d = 0; d < grid_.dimension; ++d)
-      for (int side = 0; side < 2; ++side) {
-        CellIndex n = c.cell;
-        n[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
-        Real const a = c.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] / grid_.face_area(d);
-        Index const j = find(n);
-        if (j < 0 || !(a > 1e-12)) continue;
-        open = true;
-        if (!(cell(j).volume > c.volume)) continue;
-        consider(j, a + 0.5 * cell(j).volume / grid_.cell_volume(), best, best_score);
-      }
-    if (best >= 0 && open) return best;
-    for_neighbourhood(grid_, c.cell, 1, [&](CellIndex n) {
-      Index const j = find(n);
-      if (j >= 0 && j != i && cell(j).volume > c.volume) consider(j, cell(j).volume, best, best_score);
-    });
-    return best;
-  }
-  /// Cells are sorted by id and visited in any order: a tie goes to the lower one.
-  static void consider(Index j, Real score, Index& best, Real& best_score) {
-    if (best < 0 || score > best_score || (score == best_score && j < best)) best = j, best_score = score;
   }
 
   void sum_groups() {
@@ -137,7 +88,7 @@ class Merger {
         for (int side = 0; side < 2; ++side) {
           CellIndex n = cell(i).cell;
           n[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
-          Index const j = find(n);
+          Index const j = near_.find(n);
           if (j < 0 || root(j) == group || cell(j).volume <= 0) continue;
           Index const other = root(j);
           bool const positive = !inadmissible(volume_[at(other)], amount_[at(other)]);
@@ -145,7 +96,7 @@ class Merger {
               cell(j).volume / grid_.cell_volume() +
               2 * cell(i).aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] / grid_.face_area(d) +
               (positive ? 1 : 0);
-          consider(j, score, best, best_score);
+          NearCells::consider(j, score, best, best_score);
         }
     }
     return best >= 0 ? best : nearest_fluid(group);
@@ -160,9 +111,9 @@ class Merger {
       Real best_score = 0;
       for (Index i = group; i >= 0; i = next_[at(i)])
         for_shell(grid_, cell(i).cell, distance, [&](CellIndex n) {
-          Index const j = find(n);
+          Index const j = near_.find(n);
           if (j >= 0 && root(j) != group && cell(j).volume > covered_fraction * full_)
-            consider(j, cell(j).volume, best, best_score);
+            NearCells::consider(j, cell(j).volume, best, best_score);
         });
       if (best >= 0) return best;
     }
@@ -197,11 +148,13 @@ class Merger {
       for (std::size_t d = 0; d < 3; ++d)
         if (sight_ == Sight::halo && high[r][d] - low[r][d] >= largest_group && cell(i).mine) return {"", true};
       cell(i).grouped = true;
+      cell(i).group = root(i);
       for (std::size_t q = 0; q < 5; ++q) cell(i).mean[q] = amount_[r][q] / volume_[r];
     }
     return {};
   }
 
+  NearCells near_;
   fluid::Grid const& grid_;
   Real full_, small_;
   Sight sight_;

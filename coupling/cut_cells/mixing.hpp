@@ -17,9 +17,12 @@ struct NearCell {
   fluid::State amount{};                          ///< integral over the cell
   bool rewritten = false;                         ///< the balance changed it: it is judged
   bool mine = false;
+  Vec3 place{};          ///< centroid of the fluid, m; needed where groups get profiles
+  bool settled = false;  ///< state redistribution has done with it: it is not merged for its size
   // results
   bool grouped = false;
   fluid::State mean{};  ///< of its group, when grouped
+  Index group = -1;     ///< place in the list of the first member of its group, when grouped
 };
 
 /// Cells beyond those of a rank within which the groups of its cells are built redundantly.

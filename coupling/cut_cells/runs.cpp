@@ -32,7 +32,9 @@ MirrorCell WallSweeper::mirror(CellIndex c, int direction, int side, std::vector
   GlobalId const id = grid.cell_id(chosen);
   wanted.push_back(id);
   // The place in `wanted` for now; becomes the slot once the list is sorted.
-  return {static_cast<Index>(wanted.size()) - 1, p.normal, dot(p.velocity, p.normal), p.velocity};
+  Vec3 offset = image - grid.centre(chosen);
+  for (int d = 0; d < 3; ++d) offset[d] = d < grid.dimension ? clamp(offset[d], -grid.spacing[d], grid.spacing[d]) : 0;
+  return {static_cast<Index>(wanted.size()) - 1, offset, p.normal, dot(p.velocity, p.normal), p.velocity};
 }
 
 void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction, std::vector<GlobalId>& wanted) {
@@ -129,7 +131,11 @@ void WallSweeper::rebuild(WallRecord const& record) {
   std::vector<GlobalId> list = wanted;
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
+  image_cells_ = list;
   images_.plan(comm_, flow_, std::move(list));
+  profiled_ = false;
+  profiles_.clear();
+  image_slopes_.clear();
   auto const to_slot = [&](MirrorCell& m) {
     if (m.slot >= 0) m.slot = images_.slot(wanted[static_cast<std::size_t>(m.slot)]);
   };
@@ -143,6 +149,7 @@ void WallSweeper::rebuild(WallRecord const& record) {
 }
 
 void WallSweeper::keep(WallRecord const& record) {
+  profiled_ = false;
   record_ = &record;
   refresh_mirrors();
 }
@@ -155,8 +162,7 @@ void WallSweeper::set_mirrors(std::function<fluid::State(fluid::State const&, Mi
   images_.refresh(comm_, [](Block const& b, Index i, Index j, Index k) { return b.load(i, j, k); });
   for (auto& [id, wall] : blocks_) {
     Block& block = *flow_.find(id);
-    for (auto const& [c, m] : wall.solid)
-      block.store(c[0], c[1], c[2], m.slot >= 0 ? mirrored(images_[m.slot], m) : ambient);
+    for (auto const& [c, m] : wall.solid) block.store(c[0], c[1], c[2], m.slot >= 0 ? mirrored(image(m), m) : ambient);
   }
 }
 

@@ -60,6 +60,7 @@ std::uint64_t courant(Real density, Real momentum, Real pressure, Real sigma, fl
 }  // namespace
 
 void WallSweeper::begin_step() {
+  profiled_ = false;
   for (auto& [id, wall] : blocks_) {
     Block const& block = *flow_.find(id);
     std::size_t const cells = static_cast<std::size_t>(wall.size[0]) * static_cast<std::size_t>(wall.size[1]) *
@@ -75,6 +76,45 @@ void WallSweeper::begin_step() {
       wall.pressure[dir].resize(cells);
     }
   }
+}
+
+void WallSweeper::make_profiles(WallRecord const& next, bool same) {
+  fluid::Grid const& grid = flow_.grid();
+  if (!same || !profiles_.planned()) {
+    std::vector<CellBox> near;
+    for (Block const& block : std::as_const(flow_).blocks()) near.push_back(grown(grid, box_of(block), 1));
+    std::vector<GlobalId> cells;
+    for (WallRecord const* r : {record_, &next})
+      for (CutCell const& cut : r->geometry.cells)
+        if (grid.inside(cut.cell) &&
+            std::any_of(near.begin(), near.end(), [&](CellBox const& b) { return b.holds(cut.cell); }))
+          cells.push_back(grid.cell_id(cut.cell));
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    profiles_.plan(comm_, flow_, *record_, std::move(cells));
+  }
+  if (!image_slopes_.planned()) image_slopes_.plan(comm_, flow_, *record_, image_cells_);
+  auto const read = [](Block const& b, Index i, Index j, Index k) { return b.load(i, j, k); };
+  profiles_.refresh(comm_, read, profile_kind);
+  image_slopes_.refresh(comm_, read, profile_kind);
+  profiled_ = true;
+  for (auto& [id, wall] : blocks_) {
+    Block& block = *flow_.find(id);
+    CellBox const own = box_of(block);
+    CellIndex const first = block.first();
+    for (CutCell const& cut : record_->geometry.cells) {
+      if (!own.holds(cut.cell) || record_->solid(cut.cell)) continue;
+      Index const i = cut.cell[0] - first[0], j = cut.cell[1] - first[1], k = cut.cell[2] - first[2];
+      block.store(i, j, k, profiles_.value(grid.cell_id(cut.cell), wall.before[wall.cell(i, j, k)], {}));
+    }
+  }
+}
+
+State WallSweeper::image(MirrorCell const& mirror) const {
+  State const& u = images_[mirror.slot];
+  if (!profiled_) return u;
+  Profile const* const profile = image_slopes_.profile(image_cells_[static_cast<std::size_t>(mirror.slot)]);
+  return profile ? moved_within(flow_.gas(), u, change_along(*profile, mirror.offset)) : u;
 }
 
 void WallSweeper::prepare(int, Real) { refresh_mirrors(); }
@@ -140,7 +180,7 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
             WallBlock::RunEnd const& e = ends[static_cast<std::size_t>(end)];
             auto const at = static_cast<std::size_t>(m);
             if (e.mirror[at].slot >= 0)
-              s = reflect(images_[e.mirror[at].slot], e.mirror[at]);
+              s = reflect(image(e.mirror[at]), e.mirror[at]);
             else if (e.general[at] && start + i >= -ghost && start + i < n + ghost)
               s = block_state(start + i);
           }

@@ -7,6 +7,7 @@
 
 #include "coupling/cut_cells/state_gather.hpp"
 #include "coupling/cut_cells/wall_record.hpp"
+#include "coupling/cut_cells/wall_slopes.hpp"
 #include "fluid/flow.hpp"
 
 namespace brisance::coupling {
@@ -14,6 +15,7 @@ namespace brisance::coupling {
 /// A cell that enters a sweep with a reflected state.
 struct MirrorCell {
   Index slot = -1;      ///< image cell in the gather, -1: none
+  Vec3 offset;          ///< of the image from the centre of that cell, m
   Vec3 normal;          ///< unit
   Real wall_speed = 0;  ///< normal velocity of the wall, m/s
   Vec3 wall_velocity;   ///< m/s
@@ -65,6 +67,11 @@ class WallSweeper : public fluid::BlockSweeper {
   void set_mirrors(std::function<fluid::State(fluid::State const&, MirrorCell const&)> const& mirrored);
   /// Keeps U^n of the wall blocks.
   void begin_step();
+  /// Collective, after begin_step. Linear profiles at t^n in the cells cut now or after the step (`next`; `same`: it is
+  /// the present geometry). Until the next step the cells cut now hold the value of their profile at their centre, and
+  /// mirror states are taken at the image itself: the sweeps see a smooth flow that goes on behind the wall.
+  void make_profiles(WallRecord const& next, bool same);
+  WallSlopes const& profiles() const { return profiles_; }
 
   bool handles(Index block) const override { return blocks_.contains(block); }
   void prepare(int direction, Real dt) override;
@@ -73,6 +80,7 @@ class WallSweeper : public fluid::BlockSweeper {
 
   std::map<Index, WallBlock>& blocks() { return blocks_; }
   std::map<Index, WallBlock> const& blocks() const { return blocks_; }
+  ProfileKind profile_kind = ProfileKind::density;
   fluid::State ambient{};  ///< stands where no image exists
   std::size_t bytes() const;
 
@@ -81,6 +89,7 @@ class WallSweeper : public fluid::BlockSweeper {
   void find_solid(fluid::Block const& block, WallBlock& wall, std::vector<GlobalId>& wanted);
   MirrorCell mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted) const;
   void refresh_mirrors();
+  fluid::State image(MirrorCell const& mirror) const;
   void flux_between_solids(fluid::Block const& block, WallBlock& wall, int direction, Real sigma) const;
   /// Nothing but pressure goes through a reflecting side, to round-off.
   void close_reflecting_sides(fluid::Block& block, WallBlock& wall, int direction, Real sigma,
@@ -91,6 +100,9 @@ class WallSweeper : public fluid::BlockSweeper {
   WallRecord const* record_ = nullptr;
   std::map<Index, WallBlock> blocks_;
   StateGather images_;
+  std::vector<GlobalId> image_cells_;   ///< by slot
+  WallSlopes profiles_, image_slopes_;  ///< of cut cells; of images
+  bool profiled_ = false;               ///< the blocks hold states at centres, and images have slopes
   CellSet near_;
   std::vector<Real> scratch_u_, scratch_result_, scratch_flux_, scratch_pressure_;
   std::vector<std::uint8_t> scratch_order_;
