@@ -175,6 +175,11 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     fluid::check_cell_fields(scene.output.fields, *scene.fluid, grid->dimension, scene.output.at);
   }
   bool const coupled = scene.coupling && scene.coupling->cut_cells;
+  if (coupled && scene.coupling->cut_cells->load == "relative" && scene.coupling->scheme == "explicit")
+    scene_error(
+        scene.coupling->at,
+        "coupling.cut_cells.load = \"relative\" needs the boundary at the end of the step, which scheme = \"explicit\" "
+        "does not load: take \"lag\" or \"semi\" with it");
   require(!coupled || w.dimension >= 2, Failure::scene, "coupling.cut_cells needs a fluid in 2 or 3 dimensions");
   if (coupled && !scene.fluid->euler)
     scene_error(scene.fluid->at, "coupling.cut_cells needs the effect fluid.euler: add euler = {} to [fluid]");
@@ -226,10 +231,9 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   if (w.solid) w.solid_effects = solid::make_effects(*scene.solid, *w.solid, comm);
   if (coupled) {
     fluid::GasState const& air = scene.fluid->ambient;
-    w.cut_cells =
-        std::make_unique<coupling::CutCells>(*scene.coupling->cut_cells, scene.coupling->time_coupling(), *w.flow,
-                                             *w.solid, w.surface,
-                                             w.flow->gas().conserved(air.density, air.velocity, air.pressure), comm);
+    w.cut_cells = std::make_unique<coupling::CutCells>(
+        *scene.coupling->cut_cells, scene.coupling->time_coupling(), *w.flow, *w.solid, w.surface,
+        w.flow->gas().conserved(air.density, air.velocity, air.pressure), comm);
   }
   if (w.cut_cells) w.cut_cells->watch_light_solids(scene.fluid->euler->cfl, scene.coupling->light_solids == "limit");
   if (w.euler && w.cut_cells) w.euler->set_fluid_volume(w.cut_cells->fluid_volumes());

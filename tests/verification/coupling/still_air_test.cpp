@@ -51,6 +51,18 @@ TEST(StillAir, LeavesAStructureExactlyAtRest) {
   }
 }
 
+TEST(StillAir, RefusesTheExplicitScheme) {
+  std::string scene = structure(2, "relative", "");
+  scene.insert(scene.find("body_loads"), "scheme = \"explicit\"\n");
+  try {
+    CoupledCase c(scene);
+    FAIL() << "accepted";
+  } catch (Error const& error) {
+    EXPECT_EQ(error.kind(), Failure::scene);
+    EXPECT_NE(std::string(error.what()).find("take \"lag\" or \"semi\""), std::string::npos) << error.what();
+  }
+}
+
 TEST(BodyLoads, NeedAFluidThatActs) {
   std::string scene = structure(2, "relative", "");
   scene.resize(scene.find("cut_cells"));
