@@ -66,10 +66,10 @@ void Contact::start() {
 
 /// Overlaps and their energy, without forces.
 void Contact::measure() {
-  find_overlaps();
+  find_overlaps(Axes::keep);
   for (std::size_t const k : live_) {
     Overlap& o = overlaps_[k];
-    o.energy = o.law.energy(o.common.volume) + o.memory.stored();
+    o.energy = o.law.energy(o.common.volume) + o.barrier.energy + o.memory.stored();
   }
 }
 
@@ -91,6 +91,9 @@ PairLaw Contact::law_of(ContactPair const& pair) const {
   Real const through =
       min(a.shape->largest_face, b.shape->largest_face) * 2 * min(a.shape->inner_radius, b.shape->inner_radius);
   law.knee = 0.2 * min(volume, through);
+  Real const thickness = 2 * min(a.shape->inner_radius, b.shape->inner_radius);
+  law.barrier = {thickness, law.stiffness * square(volume / thickness),
+                 0.05 * std::pow(thickness, solid_.mesh().dimension)};
   law.damping = damping_;
   law.friction = config_.friction;
   law.shear_ratio = config_.friction > 0 ? 2 * (1 - nu) / (2 - nu) : 0;
@@ -128,23 +131,31 @@ void Contact::carry_over() {
     if (overlaps_[k].active || overlaps_[k].was_active) live_.push_back(k);
 }
 
-void Contact::find_overlap(std::size_t pair) {
+void Contact::find_overlap(std::size_t pair, Axes axes) {
   ContactPair const& p = list_.pairs()[pair];
   Overlap& o = overlaps_[pair];
   o.common = {};
+  o.barrier = {};
   if (list_.distance2(p) >= p.touching) return;
   PlacedConvex const &a = list_.placed(p.a), &b = list_.placed(p.b);
   Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
-  if (!separated_by_face(a, b, shift, o.separating_plane)) o.common = clipper_.intersect(a, b, shift);
+  if (separated_by_face(a, b, shift, o.separating_plane)) return;
+  o.common = clipper_.intersect(a, b, shift);
+  if (!(o.common.volume > 0)) return;
+  Quaternion const &qa = list_.pose(p.a).q, &qb = list_.pose(p.b).q;
+  if (axes == Axes::choose)
+    o.memory.axis =
+        choose_axis(o.was_active ? o.before.axis : DepthAxis{}, o.law.barrier, o.common, a, b, qa, qb, shift);
+  o.barrier = find_barrier(o.memory.axis, o.law.barrier, o.common, clipper_, qa, qb, shift);
 }
 
-void Contact::find_overlaps() {
+void Contact::find_overlaps(Axes axes) {
   live_.clear();
   for (std::size_t k = 0; k < overlaps_.size(); ++k) {
     ContactPair const& p = list_.pairs()[k];
     Overlap& o = overlaps_[k];
     if (list_.distance2(p) >= p.touching && !o.active && !o.was_active) continue;  // most of the list: nothing to do
-    find_overlap(k);
+    find_overlap(k, axes);
     o.active = o.common.volume > 0;
     if (o.active || o.was_active) live_.push_back(k);
   }
@@ -212,13 +223,14 @@ void Contact::apply(Clock const& clock) {
   step_ = clock.step;
   if (!again) begin_step();
   refresh();
-  find_overlaps();
+  find_overlaps(Axes::choose);
   gather_accelerations();
   std::span<Wrench> const wrench = solid_.internal();
   for (std::size_t const k : live_) {
     Overlap& o = overlaps_[k];
     ContactPair const& p = list_.pairs()[k];
     o.energy = 0;
+    DepthAxis const axis = o.memory.axis;
     o.memory = {};
     Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
     PairEnd const a = end_of(p.a, o.common.area, o.common.moment);
@@ -226,15 +238,16 @@ void Contact::apply(Clock const& clock) {
     if (o.active) {
       PairForce const f = contact_force(o.law, o.common, shift, a, b, clock.dt, o.was_active ? &o.before : nullptr);
       o.memory = f.memory;
-      o.energy = f.energy;
+      o.memory.axis = axis;
+      o.energy = f.energy + o.barrier.energy;
       auto const add = [&](Index actor, Vec3 const& force, Vec3 const& torque) {
         Index const local = list_.actors()[at(actor)].local;
         if (local < 0) return;
         wrench[at(local)].force += force;
         wrench[at(local)].torque += torque;
       };
-      add(p.a, f.force, f.torque_a);
-      add(p.b, -f.force, f.torque_b);
+      add(p.a, f.force + o.barrier.force, f.torque_a + o.barrier.torque_a);
+      add(p.b, -f.force - o.barrier.force, f.torque_b + o.barrier.torque_b);
     }
     if (mine(k)) book(o, a, b, clock.dt, again);
   }

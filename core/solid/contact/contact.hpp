@@ -35,6 +35,7 @@ class Contact : public Effect {
     PairLaw law;
     Intersection common;
     PairMemory memory, before;
+    Barrier barrier;
     Real energy = 0, first_energy = 0;  ///< now; when the forces of this step were first computed
     int separating_plane = 0;
     bool active = false, was_active = false;  ///< overlaps now; did at the start of the step
@@ -49,8 +50,9 @@ class Contact : public Effect {
   void begin_step();
   void book(Overlap& overlap, PairEnd const& a, PairEnd const& b, Real dt, bool again);
   void carry_over();
-  void find_overlap(std::size_t pair);
-  void find_overlaps();
+  enum class Axes { keep, choose };  ///< of the barriers: those of the memory, or those of a new step
+  void find_overlap(std::size_t pair, Axes axes);
+  void find_overlaps(Axes axes);
   Vec3 acceleration_of(Index local) const;
   std::array<double, 8> motion_row(Index local);
   void gather_accelerations();

@@ -72,13 +72,42 @@ Real damping_for(Real restitution) {
 }
 
 std::array<double, PairMemory::size> PairMemory::pack() const {
-  return {shear.x, shear.y, shear.z,    shear_stiffness, twist,      twist_stiffness, impact_speed, phase,     force.x,
-          force.y, force.z, torque_a.x, torque_a.y,      torque_a.z, torque_b.x,      torque_b.y,   torque_b.z};
+  return {shear.x,
+          shear.y,
+          shear.z,
+          shear_stiffness,
+          twist,
+          twist_stiffness,
+          impact_speed,
+          phase,
+          force.x,
+          force.y,
+          force.z,
+          torque_a.x,
+          torque_a.y,
+          torque_a.z,
+          torque_b.x,
+          torque_b.y,
+          torque_b.z,
+          axis.outward.x,
+          axis.outward.y,
+          axis.outward.z,
+          axis.surface,
+          axis.start,
+          axis.of_b ? 1.0 : 0.0};
 }
 
 PairMemory PairMemory::unpack(double const* r) {
-  return {{r[0], r[1], r[2]},   r[3], r[4], r[5], r[6], r[7], {r[8], r[9], r[10]}, {r[11], r[12], r[13]},
-          {r[14], r[15], r[16]}};
+  return {{r[0], r[1], r[2]},
+          r[3],
+          r[4],
+          r[5],
+          r[6],
+          r[7],
+          {r[8], r[9], r[10]},
+          {r[11], r[12], r[13]},
+          {r[14], r[15], r[16]},
+          {{r[17], r[18], r[19]}, r[20], r[21], r[22] != 0}};
 }
 
 Real PairMemory::stored() const {

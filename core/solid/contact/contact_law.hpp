@@ -2,7 +2,7 @@
 #pragma once
 #include <array>
 
-#include "core/solid/contact/intersection.hpp"
+#include "core/solid/contact/barrier.hpp"
 
 namespace brisance::solid {
 
@@ -13,6 +13,7 @@ struct PairLaw {
   Real damping = 0;      ///< Hunt and Crossley's factor: pressure (1 + damping u / u_impact)
   Real friction = 0;     ///< Coulomb's coefficient
   Real shear_ratio = 0;  ///< k_t / k_n = 2 (1 - nu) / (2 - nu)
+  BarrierLaw barrier;
 
   Real pressure(Real volume) const { return stiffness * volume * max(1, volume / knee); }  ///< Pa
   /// dp/dV, Pa/m3
@@ -33,8 +34,9 @@ struct PairMemory {
   Real impact_speed = 0;                 ///< closing speed that damping is measured by, m/s
   Real phase = 0;                        ///< 0: first compression and rebound; 1: rebounds; 2: compressed again
   Vec3 force{}, torque_a{}, torque_b{};  ///< the part of the forces that no energy gives, on A; N, N m
+  DepthAxis axis;
 
-  static constexpr int size = 17;
+  static constexpr int size = 23;
   std::array<double, size> pack() const;
   static PairMemory unpack(double const* row);
   /// Energy held by the spring of friction, J.

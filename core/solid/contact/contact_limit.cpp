@@ -53,6 +53,23 @@ Frequency contact_now(PairLaw const& law, Intersection const& common, ContactAct
   return {normal, normal + shear * (1 / of.mass + turning(of) * norm2(arm))};
 }
 
+/// Of the barrier of an overlap as it is. `turn`: slope of its depth by a turn of this end.
+Frequency barrier_now(Barrier const& barrier, ContactActor const& of, Pose const& pose, Vec3 const& turn) {
+  if (of.held || barrier.stiffness == 0) return {};
+  Vec3 const m = rotate(conjugate(pose.q), turn);
+  Real const normal =
+      barrier.stiffness * (norm2(barrier.slope) / of.mass + dot(m, of.shape->inverse_inertia * m) / of.density);
+  return {normal, normal};
+}
+
+/// Area that a flat contact across `normal` may have while the overlap is no thicker than `depth`: of the faces that
+/// look that way, and of what else of the overlap's sides is left. m2.
+Real flat_area(PlacedConvex const& a, PlacedConvex const& b, Vec3 const& normal, Real depth) {
+  Real const facing = min(facing_area(a, normal), facing_area(b, normal));
+  Real const sides = 2 * depth * min(a.shape->outer_radius, b.shape->outer_radius);
+  return min(std::sqrt(square(facing) + square(sides)), min(a.shape->largest_face, b.shape->largest_face));
+}
+
 }  // namespace
 
 /// Of an owned particle, in the dimensions of the run.
@@ -68,13 +85,12 @@ Vec3 Contact::acceleration_of(Index local) const {
 /// Velocity, acceleration and how fast the outermost point turns, of one owned particle.
 std::array<double, 8> Contact::motion_row(Index local) {
   Motion const& m = solid_.motion()[at(local)];
-  if (m.turns == 0) return {m.v.x, m.v.y, m.v.z, 0, 0, 0, 0, 0};
   Convex const& shape = list_.shape(local);
   Wrench const &in = solid_.internal()[at(local)], &load = solid_.load()[at(local)];
   Quaternion const back = conjugate(solid_.pose()[at(local)].q);
   Real const scale = shape.outer_radius / solid_.mesh().material(solid_.id(local)).density;
   auto const turning = [&](Vec3 const& spin) { return scale * norm(shape.inverse_inertia * rotate(back, spin)); };
-  Real const up = shape.largest_inverse > 0 ? turning(in.torque + load.torque) : 0;
+  Real const up = m.turns > 0 && shape.largest_inverse > 0 ? turning(in.torque + load.torque) : 0;
   Vec3 const a = acceleration_of(local);
   return {m.v.x, m.v.y, m.v.z, turning(m.spin), a.x, a.y, a.z, up};
 }
@@ -111,24 +127,33 @@ Real Contact::time_step() {
     Real const shared = a.held || b.held ? 1 : 2;
     Vec3 const shift = list_.pose(p.b).x - list_.pose(p.a).x;
     Vec3 const moment_b = cross(shift, o.common.area) - o.common.moment;
-    Real const area2 = square(min(a.shape->largest_face, b.shape->largest_face));
-    Frequency const flat_a = shared * flat_contact(o.law, a, area2), flat_b = shared * flat_contact(o.law, b, area2);
-
-    Real gap = 0;
     Real const depth = 0.2 * min(a.shape->inner_radius, b.shape->inner_radius);
+    Gap gap;
+    Real area = min(a.shape->largest_face, b.shape->largest_face);
     if (!o.active) {
-      gap = max(0, gap_along_normals(list_.placed(p.a), list_.placed(p.b), shift));
-      if (Real const touch = time_to_cover(gap, speed, acceleration);
+      gap = gap_along_normals(list_.placed(p.a), list_.placed(p.b), shift);
+      area = flat_area(list_.placed(p.a), list_.placed(p.b), gap.normal, depth + max(0, -gap.width));
+      gap.width = max(0, gap.width);
+    } else if (Real const size = norm(o.common.area); size > 0) {
+      area = flat_area(list_.placed(p.a), list_.placed(p.b), (1 / size) * o.common.area,
+                       o.common.high - o.common.low + depth);
+    }
+    Frequency const flat_a = shared * flat_contact(o.law, a, square(area)),
+                    flat_b = shared * flat_contact(o.law, b, square(area));
+    if (!o.active) {
+      if (Real const touch = time_to_cover(gap.width, speed, acceleration);
           touch > config_.cfl * 2 / std::sqrt(max(flat_a.normal, flat_b.normal))) {
         dt = min(dt, touch);  // a step that ends before they meet needs no regard for their stiffness
         continue;
       }
     }
-    dt = min(dt, time_to_cover(gap + depth, speed, acceleration));
+    dt = min(dt, time_to_cover(gap.width + depth, speed, acceleration));
     expected[at(p.a)].at_least(flat_a);
     expected[at(p.b)].at_least(flat_b);
     if (!o.active) continue;
     present[at(p.a)] += shared * contact_now(o.law, o.common, a, list_.pose(p.a), o.common.moment, o.common.centroid);
+    present[at(p.a)] += shared * barrier_now(o.barrier, a, list_.pose(p.a), o.barrier.slope_a);
+    present[at(p.b)] += shared * barrier_now(o.barrier, b, list_.pose(p.b), o.barrier.slope_b);
     present[at(p.b)] += shared * contact_now(o.law, o.common, b, list_.pose(p.b), moment_b, o.common.centroid - shift);
   }
   for (std::size_t k = 0; k < actors.size(); ++k) {

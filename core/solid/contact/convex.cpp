@@ -26,6 +26,7 @@ Convex make_convex(Shape const& shape, int dimension) {
     if (sliver || is_side_of_slab(face, dimension)) continue;
     c.normals.push_back(face.normal);
     c.offsets.push_back(dot(face.normal, face.centroid));
+    c.areas.push_back(face.area);
     c.inner_radius = min(c.inner_radius, c.offsets.back());
     c.largest_face = max(c.largest_face, face.area);
   }
@@ -53,15 +54,15 @@ void PlacedConvex::place(Convex const& convex, Quaternion const& q) {
 namespace {
 
 /// Widest gap between a plane of `a` and the corners of `b`.
-Real gap_to_planes(PlacedConvex const& a, PlacedConvex const& b, Vec3 const& shift) {
-  Real widest = -1e300;
+Gap gap_to_planes(PlacedConvex const& a, PlacedConvex const& b, Vec3 const& shift) {
+  Gap widest{-1e300, {}};
   for (std::size_t f = 0; f < a.normals.size(); ++f) {
     Vec3 const& n = a.normals[f];
     Real const base = dot(n, shift) - a.shape->offsets[f];
-    if (base <= widest) continue;  // the corners lie around the centre: most planes need no look at them
+    if (base <= widest.width) continue;  // the corners lie around the centre: most planes need no look at them
     Real nearest = 1e300;
     for (Vec3 const& v : b.corners) nearest = min(nearest, dot(n, v));
-    widest = max(widest, base + nearest);
+    if (base + nearest > widest.width) widest = {base + nearest, n};
   }
   return widest;
 }
@@ -93,8 +94,16 @@ bool separated_by_face(PlacedConvex const& a, PlacedConvex const& b, Vec3 const&
   return false;
 }
 
-Real gap_along_normals(PlacedConvex const& a, PlacedConvex const& b, Vec3 const& shift) {
-  return max(gap_to_planes(a, b, shift), gap_to_planes(b, a, -shift));
+Gap gap_along_normals(PlacedConvex const& a, PlacedConvex const& b, Vec3 const& shift) {
+  Gap const of_a = gap_to_planes(a, b, shift), of_b = gap_to_planes(b, a, -shift);
+  return of_a.width >= of_b.width ? of_a : of_b;
+}
+
+Real facing_area(PlacedConvex const& body, Vec3 const& direction) {
+  Real largest = 0;
+  for (std::size_t f = 0; f < body.normals.size(); ++f)
+    largest = max(largest, body.shape->areas[f] * std::abs(dot(body.normals[f], direction)));
+  return largest;
 }
 
 }  // namespace brisance::solid

@@ -13,6 +13,7 @@ struct Convex {
   std::vector<int> first;     ///< face f: loops[first[f] .. first[f + 1])
   std::vector<Vec3> normals;  ///< planes n . y <= offset; none for slivers and for the sides of a slab
   std::vector<Real> offsets;
+  std::vector<Real> areas;                  ///< of the faces in these planes, m2
   Real outer_radius = 0, inner_radius = 0;  ///< of the balls about the centre, in 2D of the circles
   Real volume = 0;
   Real largest_face = 0;     ///< area, m2
@@ -34,8 +35,14 @@ struct PlacedConvex {
 /// looked at first; it changes the time and not the answer.
 bool separated_by_face(PlacedConvex const& a, PlacedConvex const& b, Vec3 const& shift, int& hint);
 
-/// Lower bound (m) of the distance of two convex bodies, b at `shift` from a: the widest gap along a normal of a face;
-/// negative when none separates them.
-Real gap_along_normals(PlacedConvex const& a, PlacedConvex const& b, Vec3 const& shift);
+/// The widest gap along a normal of a face: a lower bound of the distance of two bodies.
+struct Gap {
+  Real width = 0;  ///< m; negative when no face separates them
+  Vec3 normal{};   ///< unit
+};
+Gap gap_along_normals(PlacedConvex const& a, PlacedConvex const& b, Vec3 const& shift);
+
+/// Largest area (m2) that a face of a body shows along a unit direction.
+Real facing_area(PlacedConvex const& body, Vec3 const& direction);
 
 }  // namespace brisance::solid

@@ -120,6 +120,32 @@ Intersection Clipper::measure() const {
     low = min(low, h), high = max(high, h);
   }
   sum.order = (high - low) / sum.volume;
+  if (Real const size = norm(sum.area); size > 0) {
+    sum.low = 1e300, sum.high = -1e300;
+    for (Vec3 const& p : points_) {
+      Real const h = dot(p, sum.area) / size;
+      sum.low = min(sum.low, h), sum.high = max(sum.high, h);
+    }
+  }
+  return sum;
+}
+
+SurfaceMoments Clipper::moments(bool of_a, Vec3 const& outward, Vec3 const& centroid) const {
+  SurfaceMoments sum;
+  for (std::size_t f = 0; f + 1 < faces_.first.size(); ++f) {
+    if ((faces_.of_a[f] != 0) != of_a) continue;
+    int const begin = faces_.first[f], end = faces_.first[f + 1];
+    Vec3 const a = points_[at(faces_.loops[at(begin)])];
+    for (int k = begin + 1; k + 1 < end; ++k) {
+      Vec3 const b = points_[at(faces_.loops[at(k)])], c = points_[at(faces_.loops[at(k + 1)])];
+      Vec3 const area = 0.5 * cross(b - a, c - a);
+      for (Vec3 const& x : {0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)}) {  // exact for squares
+        Vec3 const part = (dot(outward, centroid - x) / 3) * area;
+        sum.force += part;
+        sum.moment += cross(x, part);
+      }
+    }
+  }
   return sum;
 }
 

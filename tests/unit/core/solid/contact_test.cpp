@@ -90,7 +90,7 @@ TEST(Convex, GapsAreLowerBoundsAndSeparationNeedsOne) {
     Vec3 const shift = 1.6 * random.vector();
     int hint = n % 12;
     bool const separate = separated_by_face(p, q, shift, hint);
-    Real const gap = gap_along_normals(p, q, shift);
+    Real const gap = gap_along_normals(p, q, shift).width;
     EXPECT_EQ(separate, gap >= 0);
     if (!separate) continue;
     ++apart;
