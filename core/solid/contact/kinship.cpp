@@ -57,7 +57,45 @@ void Kinship::walk(GlobalId from) {
 
 bool Kinship::excluded(GlobalId a, GlobalId b) {
   if (walked_from_ != a) walk(a);
-  return walk_of_[static_cast<std::size_t>(b)] == walk_ && !parted(a, b);
+  bool const near = walk_of_[static_cast<std::size_t>(b)] == walk_;
+  return (near || share_a_corner(a, b)) && !parted(a, b);
+}
+
+/// In the mesh as it was built.
+bool Kinship::has_corner(GlobalId particle, Vec3 const& point, Real tolerance) const {
+  Mesh const& mesh = solid_.mesh();
+  Vec3 const at = point - mesh.particle(particle).centre;
+  auto const& corners = mesh.shape(particle).polyhedron.vertices;
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](Vec3 const& corner) { return norm2(corner - at) < square(tolerance); });
+}
+
+/// Do unbroken links lead from one to the other through particles that have this corner?
+bool Kinship::joined_round(GlobalId a, GlobalId b, Vec3 const& corner, Real tolerance) {
+  Mesh const& mesh = solid_.mesh();
+  round_.assign(1, a);
+  for (std::size_t next = 0; next < round_.size(); ++next)
+    for (std::size_t const l : mesh.links_of(round_[next])) {
+      Link const& link = mesh.links[l];
+      if (link.j == Link::wall || broken_[l]) continue;
+      GlobalId const other = link.i == round_[next] ? link.j : link.i;
+      if (other == b) return true;
+      if (std::find(round_.begin(), round_.end(), other) != round_.end()) continue;
+      if (has_corner(other, corner, tolerance)) round_.push_back(other);
+    }
+  return false;
+}
+
+bool Kinship::share_a_corner(GlobalId a, GlobalId b) {
+  Mesh const& mesh = solid_.mesh();
+  Real reach = 0;
+  for (Vec3 const& corner : mesh.shape(a).polyhedron.vertices) reach = max(reach, norm(corner));
+  Real const tolerance = 1e-6 * reach;
+  for (Vec3 const& corner : mesh.shape(a).polyhedron.vertices) {
+    Vec3 const place = mesh.particle(a).centre + corner;
+    if (has_corner(b, place, tolerance) && joined_round(a, b, place, tolerance)) return true;
+  }
+  return false;
 }
 
 /// Did all links between the two break?

@@ -8,8 +8,10 @@
 namespace brisance::solid {
 
 /// Particles within as many unbroken links as there are dimensions are kin: cells that share a corner are, and their
-/// links keep them apart. A pair whose own link broke is not, whatever way round a crack tip still joins it.
-/// Broken links are known on every rank, so that all ranks decide alike.  Source: theory/solid.md section 15.
+/// links keep them apart. So are cells that share a corner which unbroken links go round, however many: the wedges
+/// about the axis of a rod, cells at a vertex of tetrahedra. A pair whose own link broke is not, whatever way round a
+/// crack tip still joins it. Broken links are known on every rank, so that all ranks decide alike.  Source:
+/// theory/solid.md section 15.
 class Kinship {
  public:
   Kinship(Solid const& solid, parallel::Comm& comm);
@@ -27,6 +29,9 @@ class Kinship {
  private:
   void walk(GlobalId from);
   bool parted(GlobalId a, GlobalId b) const;
+  bool has_corner(GlobalId particle, Vec3 const& point, Real tolerance) const;
+  bool joined_round(GlobalId a, GlobalId b, Vec3 const& corner, Real tolerance);
+  bool share_a_corner(GlobalId a, GlobalId b);
 
   Solid const& solid_;
   parallel::Comm& comm_;
@@ -35,7 +40,7 @@ class Kinship {
   GlobalId walked_from_ = -1;
   std::vector<std::uint32_t> walk_of_;  ///< by particle: the last walk that met it
   std::uint32_t walk_ = 0;
-  std::vector<GlobalId> met_;
+  std::vector<GlobalId> met_, round_;
 };
 
 }  // namespace brisance::solid
