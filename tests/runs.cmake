@@ -42,6 +42,8 @@ brisance_same_digest(ductile ${PROJECT_SOURCE_DIR}/tests/support/scenes/ductile.
 brisance_same_digest(consistent ${PROJECT_SOURCE_DIR}/tests/support/scenes/consistent.toml 80)
 brisance_same_digest(bursting-wheel ${scenes}/bursting-wheel.toml 80 --set solid.body.0.particles=300)
 brisance_same_digest(break-up ${PROJECT_SOURCE_DIR}/tests/support/scenes/break-up.toml 44)
+brisance_same_digest(clash ${PROJECT_SOURCE_DIR}/tests/support/scenes/clash.toml 80)
+set_tests_properties(same_digest.clash PROPERTIES ENVIRONMENT BREAKING=1)
 brisance_same_digest(rods-and-plates ${PROJECT_SOURCE_DIR}/tests/support/scenes/rods-and-plates.toml 120)
 brisance_same_digest(two-bars ${scenes}/two-bars.toml 40)
 brisance_same_digest(filled-surfaces ${PROJECT_SOURCE_DIR}/tests/support/scenes/filled-surfaces.toml 40)

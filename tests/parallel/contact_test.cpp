@@ -5,6 +5,7 @@
 
 #include "core/solid/contact/contact.hpp"
 #include "parallel/archive.hpp"
+#include "tests/support/breaking_solid.hpp"
 #include "tests/support/solid_run.hpp"
 
 namespace brisance::solid {
@@ -53,7 +54,8 @@ struct Outcome {
 Outcome outcome_of(SolidRun& run) {
   Outcome o;
   o.digest = run.simulation.digest();
-  o.overlaps = dynamic_cast<Contact&>(*run.effects[0]).overlapping_pairs();
+  for (auto const& effect : run.effects)
+    if (auto const* contact = dynamic_cast<Contact const*>(effect.get())) o.overlaps = contact->overlapping_pairs();
   run.comm.sum(std::span(&o.overlaps, 1));
   return o;
 }
@@ -106,6 +108,63 @@ TEST(ContactBits, GoOnAfterARestartAmongOverlaps) {
   }
   for (auto const& effect : again.effects) effect->start();
   for (int n = steps / 2; n < steps; ++n) again.simulation.pair();
+  EXPECT_EQ(outcome_of(again), reference);
+  comm.barrier();
+  if (comm.rank() == 0) std::remove(path.c_str());
+}
+
+/// The crowd, of stuff that breaks.
+SolidConfig brittle_crowd() {
+  SolidConfig config = crowd();
+  LawConfig law = testing::stress_law(0.03, 0.8);
+  law.weibull = Weibull{6, 0.1, 3};
+  config.fracture.emplace().law = {law};
+  return config;
+}
+
+TEST(ContactBits, GoOnAfterARestartInTheMiddleOfBreaking) {
+  parallel::Comm& comm = testing::comm();
+  std::string const path = "contact-fracture-restart-" + std::to_string(comm.size()) + ".h5";
+  auto const alone = parallel::serial();
+  auto const broken = [](SolidRun& run) {
+    std::int64_t count = 0;
+    for (std::size_t k = 0; k < run.solid.links(); ++k)
+      count += run.solid.intact(k) == 0 && run.solid.link_store().end_i(k) < run.solid.owned();
+    run.comm.sum(std::span(&count, 1));
+    return count;
+  };
+  Outcome reference;
+  std::int64_t broken_half = 0, broken_end = 0;
+  {
+    SolidRun run(brittle_crowd(), 3, 1000, *alone);
+    run.start();
+    for (int n = 0; n < 2 * steps; ++n) {
+      run.simulation.pair();
+      if (n + 1 == steps) broken_half = broken(run);
+    }
+    reference = outcome_of(run), broken_end = broken(run);
+  }
+  EXPECT_GT(broken_half, 0);
+  EXPECT_GT(broken_end, broken_half);
+  std::vector<int> const owner = scattered(comm.size(), build_mesh(crowd(), 3).size());
+  {
+    SolidRun run(brittle_crowd(), 3, 1000, comm, {});
+    run.start();
+    for (int n = 0; n < steps; ++n) run.simulation.pair();
+    EXPECT_GT(outcome_of(run).overlaps, 5);
+    parallel::ArchiveWriter file(comm, path);
+    run.simulation.write(file);
+    file.close();
+    for (int n = steps; n < 2 * steps; ++n) run.simulation.pair();
+    EXPECT_EQ(outcome_of(run), reference);
+  }
+  SolidRun again(brittle_crowd(), 3, 1000, comm, owner);
+  {
+    parallel::ArchiveReader file(comm, path);
+    again.simulation.read(file);
+  }
+  for (auto const& effect : again.effects) effect->start();
+  for (int n = steps; n < 2 * steps; ++n) again.simulation.pair();
   EXPECT_EQ(outcome_of(again), reference);
   comm.barrier();
   if (comm.rank() == 0) std::remove(path.c_str());

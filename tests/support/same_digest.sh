@@ -2,6 +2,7 @@
 # same_digest.sh PROGRAM WORK STEPS SCENE [options of run]: the scene ends with the same state_digest on 1, 2, 3 and 4 ranks,
 # and when it is stopped half way and restarted on another number of ranks; blocks of another size
 # give the same bits too, and so do blocks that may not sleep. The census of fragments has the same bytes.
+# With BREAKING=1 in the environment, links must have broken half way, and more of them at the end.
 set -u
 program=$1 work=$2 steps=$3 scene=$4
 shift 4
@@ -9,6 +10,7 @@ launch="mpirun --allow-run-as-root --oversubscribe --mca mpi_yield_when_idle 1 -
 rm -rf "$work"
 mkdir -p "$work"
 failed=0
+broken() { sed -n 's/.*"links_broken": \([0-9]*\).*/\1/p' "$1/summary.json"; }
 digest() { sed -n 's/.*"state_digest": "\(.*\)".*/\1/p' "$1/summary.json"; }
 run() { # run RANKS NAME COMMAND...
   local ranks=$1 name=$2
@@ -55,7 +57,12 @@ for pair in "1 3" "2 1" "4 2"; do
   read -r before after <<<"$pair"
   name=restart${before}to$after
   run "$before" "$name-a" run "$scene" --out "$work/$name" --steps "$half" "$@"
+  broken_half=$(broken "$work/$name")
   run "$after" "$name-b" restart "$work/$name" --steps "$steps"
   check "restart $before -> $after ranks" "$work/$name"
+  if [[ ${BREAKING:-0} == 1 ]] && ! ((0 < broken_half && broken_half < $(broken "$work/$name"))); then
+    echo "FAILED: $broken_half links are broken at the restart, $(broken "$work/$name") at the end: not in mid-fracture"
+    failed=1
+  fi
 done
 exit $failed

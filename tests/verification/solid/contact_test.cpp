@@ -21,7 +21,11 @@ SolidConfig rigid(Real young_modulus = 1) {
   return config;
 }
 
-Contact& contact_of(SolidRun& run) { return dynamic_cast<Contact&>(*run.effects[0]); }
+Contact& contact_of(SolidRun& run) {
+  for (auto const& effect : run.effects)
+    if (auto* contact = dynamic_cast<Contact*>(effect.get())) return *contact;
+  throw std::logic_error("no contact");
+}
 
 BodyConfig held(BodyConfig body) {
   body.hold.push_back({{-1e3, -1e3, -1e3}, {1e3, 1e3, 1e3}});
@@ -401,6 +405,27 @@ TEST(Contact, AHeapComesToRest) {
   for (Index p = 0; p < run.solid.owned(); ++p) EXPECT_GT(run.solid.pose()[static_cast<std::size_t>(p)].x.z, -0.6);
 }
 
+/// Largest step that the contacts of a rod of wedges allow, over that of its links: the rod stands `gap` above a coarse
+/// held block.
+Real step_of_a_rod_of_wedges(Real gap) {
+  SolidConfig config = testing::one_material(1, 1, 0.3);
+  config.contact.emplace();
+  BodyConfig rod = testing::box({0, 0, 0}, {1, 1, 1}, {3, 20, 6});
+  rod.shape = "cylinder", rod.tessellation = "polar", rod.low.reset(), rod.high.reset();
+  rod.centre = Vec3{0.1, 0.2, gap + 3}, rod.radius = 1.5, rod.length = 6;
+  rod.velocity = {0, 0, -0.01};
+  config.body = {held(testing::box({-4, -4, -3}, {4, 4, 0}, {2, 2, 1})), rod};
+  SolidRun run(config, 3, 1, testing::comm());
+  run.start();
+  return contact_of(run).time_step() / run.solid.stable_limit().dt;
+}
+
+TEST(Contact, WedgesAreJudgedByTheFacesThatMeet) {
+  // About the axis wedges meet that no few links join: they are of one piece. The target sees their small ends.
+  EXPECT_GT(step_of_a_rod_of_wedges(3), 1.5);
+  EXPECT_GT(step_of_a_rod_of_wedges(1e-9), 0.7);
+}
+
 /// Turns a body about its centre, as a rigid one.
 void turn(SolidRun& run, Index body, Vec3 const& centre, Quaternion const& q) {
   for (Index p = 0; p < run.solid.owned(); ++p) {
@@ -421,21 +446,20 @@ TEST(Contact, NothingTunnels) {
     int phases = 24;
   };
   Real const eighth = 0.25 * std::numbers::pi;
-  for (Case const& c :
-       {Case{"cube on cube", {1, 1, 1}, {1, 1, 1}, {}, 0.7, 0.3},
-        Case{"cube on a plate", {1, 1, 0.1}, {1, 1, 1}, {}, 0.2, 0.05},
-        Case{"cube on a wide plate", {3, 3, 0.1}, {1, 1, 1}, {}, 0.2, 0.05},
-        Case{"corner of a cube on a plate", {2, 2, 0.1}, {1, 1, 1}, {0.615, 0.785, 0}, 0.2, 0.01},
-        Case{"plate on plate", {2, 2, 0.05}, {1, 1, 0.05}, {}, 0.2, 0.005},
-        Case{"edge of a plate on a plate", {2, 2, 0.05}, {1, 0.05, 1}, {}, 0.2, 0.001},
-        Case{"corner of a plate on a plate", {2, 2, 0.05}, {1, 0.05, 1}, {0, eighth, 0}, 0.2, 0.001},
-        Case{"edge of a plate on the edge of a plate", {1, 0.05, 1}, {0.05, 1, 1}, {}, 0.2, 0.001},
-        Case{"edge of a plate in the plane of another", {1, 0.05, 1}, {1, 0.05, 1}, {}, 0.2, 0.001},
-        Case{"plates askew", {2, 2, 0.05}, {1, 0.05, 1}, {0.4, 0.3, 0.2}, 0.2, 0.01},
-        Case{"tumbling plate on a plate", {2, 2, 0.05}, {1, 0.05, 1}, {}, 0.2, 0.3},
-        Case{"linked plate on edge", {2, 2, 0.1}, {1, 0.1, 1}, {}, 0.2, 0.001, 4, 6},
-        Case{"linked plate on a corner", {2, 2, 0.1}, {1, 0.1, 1}, {0, eighth, 0}, 0.2, 0.01, 4, 6},
-        Case{"linked plate, tumbling", {2, 2, 0.1}, {1, 0.1, 1}, {0.4, 0.3, 0.2}, 0.2, 0.1, 4, 6}}) {
+  for (Case const& c : {Case{"cube on cube", {1, 1, 1}, {1, 1, 1}, {}, 0.7, 0.3},
+                        Case{"cube on a plate", {1, 1, 0.1}, {1, 1, 1}, {}, 0.2, 0.05},
+                        Case{"cube on a wide plate", {3, 3, 0.1}, {1, 1, 1}, {}, 0.2, 0.05},
+                        Case{"corner of a cube on a plate", {2, 2, 0.1}, {1, 1, 1}, {0.615, 0.785, 0}, 0.2, 0.01},
+                        Case{"plate on plate", {2, 2, 0.05}, {1, 1, 0.05}, {}, 0.2, 0.005},
+                        Case{"edge of a plate on a plate", {2, 2, 0.05}, {1, 0.05, 1}, {}, 0.2, 0.001},
+                        Case{"corner of a plate on a plate", {2, 2, 0.05}, {1, 0.05, 1}, {0, eighth, 0}, 0.2, 0.001},
+                        Case{"edge of a plate on the edge of a plate", {1, 0.05, 1}, {0.05, 1, 1}, {}, 0.2, 0.001},
+                        Case{"edge of a plate in the plane of another", {1, 0.05, 1}, {1, 0.05, 1}, {}, 0.2, 0.001},
+                        Case{"plates askew", {2, 2, 0.05}, {1, 0.05, 1}, {0.4, 0.3, 0.2}, 0.2, 0.01},
+                        Case{"tumbling plate on a plate", {2, 2, 0.05}, {1, 0.05, 1}, {}, 0.2, 0.3},
+                        Case{"linked plate on edge", {2, 2, 0.1}, {1, 0.1, 1}, {}, 0.2, 0.001, 4, 6},
+                        Case{"linked plate on a corner", {2, 2, 0.1}, {1, 0.1, 1}, {0, eighth, 0}, 0.2, 0.01, 4, 6},
+                        Case{"linked plate, tumbling", {2, 2, 0.1}, {1, 0.1, 1}, {0.4, 0.3, 0.2}, 0.2, 0.1, 4, 6}}) {
     int passed = 0;
     auto const cells = [&](Vec3 const& size) {
       auto const along = [&](Real length) { return length > 0.5 ? c.cells : 1; };
@@ -464,8 +488,8 @@ TEST(Contact, NothingTunnels) {
         bool through = false;
         for (std::size_t b = 0; b < bullet.size(); ++b) {
           Vec3 const& x = run.solid.pose()[static_cast<std::size_t>(bullet[b])].x;
-          through = through || (before[b] > 0 && x.z <= 0 && std::abs(x.x) < 0.5 * c.target.x &&
-                                std::abs(x.y) < 0.5 * c.target.y);
+          through = through ||
+                    (before[b] > 0 && x.z <= 0 && std::abs(x.x) < 0.5 * c.target.x && std::abs(x.y) < 0.5 * c.target.y);
         }
         passed += through;
       }
@@ -473,6 +497,48 @@ TEST(Contact, NothingTunnels) {
     EXPECT_TRUE(at_most("S28", "tunnelling", std::string(c.name) + ", " + std::to_string(c.speed) + " c0",
                         "bodies that passed", passed, 0));
   }
+}
+
+TEST(Contact, WhatTheBarrierTakesItReturns) {
+  // A plate on its edge, hit so fast that it goes two thirds through: elastic, so it leaves as fast as it came.
+  SolidConfig config = rigid();
+  config.body = {held(testing::box({-1, -1, -0.025}, {1, 1, 0.025}, {1, 1, 1})),
+                 moving(testing::box({-0.5, -0.025, 0.1}, {0.5, 0.025, 1.1}, {1, 1, 1}), {0, 0, -0.2})};
+  SolidRun run(config, 3, 3, testing::comm());
+  run.start();
+  Real const energy = run.energy();
+  Index bullet = 0;
+  while (run.mesh.particle(run.solid.id(bullet)).body != 1) ++bullet;
+  Real lowest = 1;
+  while (!run.simulation.finished()) {
+    run.simulation.pair();
+    lowest = min(lowest, run.solid.pose()[static_cast<std::size_t>(bullet)].x.z - 0.5);
+  }
+  EXPECT_LT(lowest, 0.005);
+  EXPECT_GT(lowest, -0.025);
+  EXPECT_EQ(contact_of(run).overlapping_pairs(), 0);
+  EXPECT_GT(run.velocity(1).z, 0.19);
+  EXPECT_TRUE(
+      at_most("S28", "plate on its edge at 0.2 c0", "rigid", "energy lost", std::abs(run.energy() / energy - 1), 1e-2));
+  EXPECT_LT(run.simulation.ledger().conservation().momentum.z, 1e-12);
+}
+
+TEST(Contact, TheStepSeesTheTurningOfDrivenBodies) {
+  // A driven paddle whose own centre stands still sweeps its tip over a small cube.
+  auto const step = [](Real spin) {
+    SolidConfig config = rigid();
+    BodyConfig paddle = testing::box({-4, -0.2, -0.5}, {4, 0.2, 0.5}, {1, 1, 1});
+    DrivenConfig drive;
+    drive.low = Vec3{-9, -9, -9}, drive.high = Vec3{9, 9, 9}, drive.spin = {0, 0, spin}, drive.centre = Vec3{0, 0, 0};
+    paddle.prescribed.push_back(drive);
+    config.body = {paddle, testing::box({3.6, 0.25, -0.1}, {3.8, 0.45, 0.1}, {1, 1, 1})};
+    SolidRun run(config, 3, 1, testing::comm());
+    run.start();
+    return contact_of(run).time_step();
+  };
+  // No more than the gap of 0.05 and a fifth of the cube's inner radius a step: the tip goes at 4 spin.
+  EXPECT_LT(step(10), 0.08 / 40);
+  EXPECT_GT(step(0.01), 0.5 * 0.07 / 0.04 * 0.1);
 }
 
 }  // namespace

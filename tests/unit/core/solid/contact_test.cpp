@@ -116,6 +116,80 @@ TEST(MeetingSpheres, AreThoseOfAllPairs) {
   EXPECT_EQ(meeting_spheres(spheres), expected);
 }
 
+TEST(Barrier, ForcesAreTheGradientOfItsEnergy) {
+  Convex const shapes[2] = {brick({1, 0.8, 0.2}), brick({0.3, 0.9, 1.2})};
+  BarrierLaw const law{0.2, 3, 0.05 * 0.008};
+  testing::Random random(7);
+  Clipper clipper;
+  int met = 0;
+  for (int n = 0; n < 2000; ++n) {
+    Vec3 x[2] = {{}, 0.7 * random.vector()};
+    Quaternion q[2] = {testing::rotation(3.0 * random.vector()), testing::rotation(3.0 * random.vector())};
+    DepthAxis axis;
+    auto const find = [&](bool choose) {
+      PlacedConvex a, b;
+      a.place(shapes[0], q[0]), b.place(shapes[1], q[1]);
+      Vec3 const shift = x[1] - x[0];
+      Intersection const o = clipper.intersect(a, b, shift);
+      if (choose && o.volume > 0) axis = choose_axis({}, law, o, a, b, q[0], q[1], shift), axis.start = 0.02;
+      return find_barrier(axis, law, o, clipper, q[0], q[1], shift);
+    };
+    Barrier const here = find(true);
+    if (!(here.energy > 1e-6)) continue;
+    ++met;
+    EXPECT_NEAR(norm(here.torque_a + here.torque_b - cross(x[1] - x[0], here.force)), 0, 1e-13 * norm(here.force));
+    for (int body = 0; body < 2; ++body)
+      for (int d = 0; d < 3; ++d) {
+        Vec3 axis_d{};
+        axis_d[d] = 1;
+        Vec3 const x0 = x[body];
+        Quaternion const q0 = q[body];
+        auto const energy = [&](Real shift, Real turn) {
+          x[body] = x0 + shift * axis_d, q[body] = testing::rotation(turn * axis_d) * q0;
+          Real const e = find(false).energy;
+          x[body] = x0, q[body] = q0;
+          return e;
+        };
+        Real const h = 1e-5, sign = body == 0 ? 1 : -1;
+        Real const by_shift = (energy(h, 0) - energy(-h, 0)) / (2 * h),
+                   by_turn = (energy(0, h) - energy(0, -h)) / (2 * h);
+        EXPECT_NEAR(by_shift, -sign * here.force[d], 1e-5 * norm(here.force) + 1e-9) << n;
+        EXPECT_NEAR(by_turn, -(body == 0 ? here.torque_a : here.torque_b)[d], 1e-5 * norm(here.force) + 1e-9) << n;
+      }
+  }
+  EXPECT_GT(met, 200);
+}
+
+TEST(Barrier, KeepsItsSideWhileItIsDeepAndFollowsTheOverlapWhileItIsShallow) {
+  Convex const plate = brick({2, 2, 0.1}), block = brick({1, 0.1, 1});
+  BarrierLaw const law{0.1, 1, 0.05e-3};
+  Clipper clipper;
+  auto const axis_at = [&](DepthAxis const& before, Vec3 const& shift) {
+    PlacedConvex const a = placed(plate), b = placed(block);
+    return choose_axis(before, law, clipper.intersect(a, b, shift), a, b, {}, {}, shift);
+  };
+  DepthAxis axis = axis_at({}, {0, 0, 0.54});
+  EXPECT_NEAR(axis.outward.z, -1, 1e-12);  // the block is the longer one: its lower face
+  EXPECT_TRUE(axis.of_b);
+  for (Real z = 0.53; z > -0.5; z -= 0.02) {
+    axis = axis_at(axis, {0, 0, z});
+    EXPECT_NEAR(axis.outward.z, -1, 1e-12) << z;
+    PlacedConvex const a = placed(plate), b = placed(block);
+    Intersection const o = clipper.intersect(a, b, {0, 0, z});
+    Barrier const barrier = find_barrier(axis, law, o, clipper, {}, {}, {0, 0, z});
+    if (z < 0.49) {
+      EXPECT_LT(barrier.force.z, 0) << z;
+    }
+  }
+  // A shallow overlap goes over the edge of the plate and down its side, and the axis with it.
+  axis = {};
+  axis = axis_at(axis, {0.4, 0, 0.545});
+  EXPECT_NEAR(std::abs(axis.outward.z), 1, 1e-12);
+  for (Real x = 0.4; x < 1.495; x += 0.005) axis = axis_at(axis, {x, 0, 0.545});
+  for (Real z = 0.545; z > 0; z -= 0.005) axis = axis_at(axis, {1.495, 0, z});
+  EXPECT_NEAR(std::abs(axis.outward.x), 1, 1e-12);
+}
+
 TEST(PairLaw, PressureIsTheSlopeOfTheEnergy) {
   PairLaw law;
   law.stiffness = 3, law.knee = 0.2;
