@@ -20,22 +20,40 @@ Closing closing(Intersection const& o, Vec3 const& shift, PairEnd const& a, Pair
           -along(a.contact_a, a.contact_turn, b.contact_a, b.contact_turn) / pressure};
 }
 
-/// The pressure without the kink where contact begins or ends; V_{k-1} and V_{k+1} are extrapolated.
-Real without_kink(Real pressure, Real volume, Closing const& c, Real dt, bool begins) {
+/// The volume where the linear motion leads to `linear`. Going in, it grows as depth^order; coming out, it is that of a
+/// layer whose thickness goes linearly from `thin` to `thick` (order 2: a wedge), and of higher order a corner.
+Real moved_volume(Real volume, Real linear, Real order) {
+  Real const thick = 1 + (linear - volume) / (order * volume);  // what is left of the largest thickness, over it
+  if (thick <= 0) return 0;
+  if (thick > 1 || order >= 2) return volume * std::pow(thick, order);
+  Real const thin = 2 / order - 1;
+  return 1 - thick <= thin ? linear : volume * order * square(thick) / (2 * (1 - thin));
+}
+
+/// The pressure without the kink where contact begins or ends. Over the two half steps around it, it does the work
+/// P (V_{k+1} - V_{k-1}) / 2 of the true volumes, 0 outside, where the linear motion would have others. `before`:
+/// V_{k-1}. Where contact goes on the two hardly differ, and at the turning point both vanish.
+Real without_kink(Real pressure, Intersection const& o, Closing const& c, Real dt, Real before) {
+  Real const volume = o.volume, order = std::clamp(o.order, 1.0, 3.0);
   Real const last = volume - dt * c.rate, straight = volume + dt * (c.rate + dt * c.push),
              pull = dt * dt * c.compliance;
   if (!(pull > 0)) return pressure;
-  if (begins && last < 0) {
-    Real const half = 0.5 * (straight - last + pull * pressure), root = half * half - pull * pressure * straight;
-    if (!(root > 0)) return pressure;
-    Real const weighted = (half - std::sqrt(root)) / pull;
-    return straight - pull * weighted > 0 ? weighted : pressure;
+  auto const after = [&](Real p) { return moved_volume(volume, straight - pull * p, order); };
+  Real const left = after(pressure);
+  bool const begins = before == 0, ends = before > volume && (left == 0 || (order < 2 && left < 0.5 * volume));
+  if (begins == ends) return pressure;
+  Real const sign = begins ? 1 : -1;
+  auto const excess = [&](Real p) {
+    return sign * (p * (straight - pull * p - last) - pressure * (after(p) - before));
+  };
+  Real low = 0, high = 2 * pressure;
+  if (begins) high = min(high, (straight - last) / pull);
+  if (!(excess(low) < 0 && excess(high) > 0)) return pressure;
+  for (int n = 0; n < 60; ++n) {
+    Real const middle = 0.5 * (low + high);
+    (excess(middle) < 0 ? low : high) = middle;
   }
-  if (!begins && straight - pull * pressure < 0 && last > 0) {
-    Real const half = 0.5 * (last - straight);
-    return (std::sqrt(half * half + pull * pressure * last) - half) / pull;
-  }
-  return pressure;
+  return low;
 }
 
 Real cap(Real value, Real limit) { return std::clamp(value, -limit, limit); }
@@ -72,42 +90,25 @@ Real damping_for(Real restitution) {
 }
 
 std::array<double, PairMemory::size> PairMemory::pack() const {
-  return {shear.x,
-          shear.y,
-          shear.z,
-          shear_stiffness,
-          twist,
-          twist_stiffness,
-          impact_speed,
-          phase,
-          force.x,
-          force.y,
-          force.z,
-          torque_a.x,
-          torque_a.y,
-          torque_a.z,
-          torque_b.x,
-          torque_b.y,
-          torque_b.z,
-          axis.outward.x,
-          axis.outward.y,
-          axis.outward.z,
-          axis.surface,
-          axis.start,
-          axis.of_b ? 1.0 : 0.0};
+  std::array<double, size> row{};
+  std::size_t to = 0;
+  for (Vec3 const& v : {shear, force, torque_a, torque_b, axis.outward})
+    for (int d = 0; d < 3; ++d) row[to++] = v[d];
+  for (Real const value : {shear_stiffness, twist, twist_stiffness, impact_speed, phase, volume, axis.surface,
+                           axis.start, axis.of_b ? 1.0 : 0.0})
+    row[to++] = value;
+  return row;
 }
 
-PairMemory PairMemory::unpack(double const* r) {
-  return {{r[0], r[1], r[2]},
-          r[3],
-          r[4],
-          r[5],
-          r[6],
-          r[7],
-          {r[8], r[9], r[10]},
-          {r[11], r[12], r[13]},
-          {r[14], r[15], r[16]},
-          {{r[17], r[18], r[19]}, r[20], r[21], r[22] != 0}};
+PairMemory PairMemory::unpack(double const* row) {
+  PairMemory m;
+  for (Vec3* v : {&m.shear, &m.force, &m.torque_a, &m.torque_b, &m.axis.outward})
+    for (int d = 0; d < 3; ++d) (*v)[d] = *row++;
+  for (Real* value : {&m.shear_stiffness, &m.twist, &m.twist_stiffness, &m.impact_speed, &m.phase, &m.volume,
+                      &m.axis.surface, &m.axis.start})
+    *value = *row++;
+  m.axis.of_b = *row != 0;
+  return m;
 }
 
 Real PairMemory::stored() const {
@@ -129,9 +130,8 @@ PairForce contact_force(PairLaw const& law, Intersection const& overlap, Vec3 co
 
   Real pressure = law.pressure(overlap.volume);
   Closing const c = closing(overlap, shift, a, b, pressure);
-  // The force of an edge or a corner sets in smoothly.
-  Real const flat = std::clamp(3 - 2 * overlap.order, 0.0, 1.0);
-  if (flat > 0) pressure += flat * (without_kink(pressure, overlap.volume, c, dt, before == nullptr) - pressure);
+  pressure = without_kink(pressure, overlap, c, dt, before ? before->volume : 0);
+  now.volume = overlap.volume;
 
   Real damped = pressure, dashpot = 0;  // dashpot: N s/m, of the normal force
   if (law.damping > 0) {

@@ -34,9 +34,10 @@ struct PairMemory {
   Real impact_speed = 0;                 ///< closing speed that damping is measured by, m/s
   Real phase = 0;                        ///< 0: first compression and rebound; 1: rebounds; 2: compressed again
   Vec3 force{}, torque_a{}, torque_b{};  ///< the part of the forces that no energy gives, on A; N, N m
+  Real volume = 0;                       ///< of the overlap, m3
   DepthAxis axis;
 
-  static constexpr int size = 23;
+  static constexpr int size = 24;
   std::array<double, size> pack() const;
   static PairMemory unpack(double const* row);
   /// Energy held by the spring of friction, J.
