@@ -62,7 +62,7 @@ struct PairForce {
 
 /// Forces of an overlap at the end of a step of `dt`. `before`: the memory at its start, null when the pair overlaps
 /// for the first time.  Momentum and angular momentum are kept by construction: B gets the opposite force and the
-/// torque that closes the sum. The force of the first and the last step of a flat contact is weighted so that the step
+/// torque that closes the sum. The pressure of the first and the last steps of a contact is weighted so that the step
 /// does not see the kink of the pressure: with f_k = k x_k x_{k+1} / (x_{k+1} - x_{k-1}), x_{k-1} < 0 where the pair
 /// was still apart, the energy of Verlet's scheme after the impact is exactly that before it.
 PairForce contact_force(PairLaw const& law, Intersection const& overlap, Vec3 const& shift, PairEnd const& a,

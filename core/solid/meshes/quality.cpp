@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "core/solid/meshes/element_mesh.hpp"
+#include "core/solid/meshes/layers.hpp"
 #include "core/solid/solid.hpp"
 
 // Scalar Eigen: small systems, and GCC 12 warns about its own AVX-512 header otherwise.
@@ -142,6 +143,7 @@ std::vector<MeshQuality> measure_quality(Mesh const& mesh, GlobalId patch) {
     Real const spacing = std::pow(volume[b] / particles, 1.0 / mesh.dimension);
     q.offset = count[b] > 0 ? std::sqrt(offsets[b] / count[b]) / spacing : 0;
     q.single_layer = layers[b] / particles;
+    q.rod_layers = layers_across_a_rod(mesh, q.body);
     if (mesh.bodies[b].whole_volume > 0) q.volume = volume[b] / mesh.bodies[b].whole_volume - 1;
     q.parts = count_parts(mesh, q.body);
     q.stairs = mesh.dimension > 1 ? count_stairs(mesh, q.body) : 0;
@@ -202,6 +204,12 @@ std::vector<std::string> warnings(MeshQuality const& q, Mesh const& mesh) {
         "{:.0f} % of it is a plate or shell of one layer: with nu = {:.3g} its bending stiffness is E t^3/12, {:.0f} % "
         "too low, and curvatures do not couple; use two layers or more",
         100 * q.single_layer, q.poisson_ratio, 100 * square(q.poisson_ratio)));
+  if (Real const excess = stiffening_of_a_rod(q.poisson_ratio, q.rod_layers); excess > 0.05)
+    list.push_back(
+        fmt::format("it is a rod of {} particles across: with nu = {:.3g} that is about {:.0f} % too stiff in bending "
+                    "(cubes), since each layer has one strain across; one layer is exact, {} would be {:.0f} % off",
+                    q.rod_layers, q.poisson_ratio, 100 * excess, 2 * q.rod_layers,
+                    100 * stiffening_of_a_rod(q.poisson_ratio, 2 * q.rod_layers)));
   if (q.stairs > 0.15)
     list.push_back(
         fmt::format("its boundary is a staircase ({:.0f} inward corners in 100 faces): a curved body made of "

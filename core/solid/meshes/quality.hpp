@@ -23,6 +23,7 @@ struct MeshQuality {
   Worst aspect;            ///< longest over shortest axis of a particle
   Real poisson_ratio = 0;  ///< of the material of the body where |nu| is largest
   Real single_layer = 0;   ///< share of the particles that are a whole plate or shell thick
+  int rod_layers = 0;      ///< particles across a rod; 0: the body is none
   Real stairs = 0;         ///< inward corners of 90 degrees over boundary faces
   std::optional<PatchModuli> moduli;  ///< absent where the mesh is exact (all angles and offsets zero)
   GlobalId patch = 0;                 ///< particles they were measured on

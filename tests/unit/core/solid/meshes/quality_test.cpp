@@ -1,4 +1,5 @@
 #include "core/solid/meshes/quality.hpp"
+#include "core/solid/meshes/layers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,26 @@ TEST(MeshQuality, SingleLayersWithAPoissonRatioAreWarnedAbout) {
   EXPECT_FALSE(warns(measure_quality(two)[0], two, "one layer"));
   EXPECT_FALSE(warns(measure_quality(rod)[0], rod, "one layer"));  // exact
   EXPECT_FALSE(warns(measure_quality(none)[0], none, "one layer"));
+}
+
+TEST(MeshQuality, LayeredRodsThatPoissonsEffectStiffensAreWarnedAbout) {
+  auto const warned = [](std::array<Index, 3> const& cells, Real nu) {
+    Mesh const mesh = build_mesh(box(cells, nu), 3);
+    return warns(measure_quality(mesh)[0], mesh, "too stiff in bending");
+  };
+  EXPECT_TRUE(warned({20, 2, 2}, -0.9));
+  EXPECT_TRUE(warned({4, 30, 4}, -0.9));
+  EXPECT_TRUE(warned({20, 2, 2}, 0.49));
+  EXPECT_FALSE(warned({20, 2, 2}, 0.3));  // 4 %
+  EXPECT_FALSE(warned({20, 2, 2}, 0));
+  EXPECT_FALSE(warned({20, 1, 1}, -0.9));  // exact
+  EXPECT_FALSE(warned({6, 6, 6}, -0.9));   // no rod
+  EXPECT_FALSE(warned({12, 12, 2}, -0.9));
+  // Measured: 210, 100 and 54 % of two, four and six layers.
+  EXPECT_NEAR(stiffening_of_a_rod(-0.9, 2), 2.1, 0.1);
+  EXPECT_NEAR(stiffening_of_a_rod(-0.9, 4), 1.0, 0.05);
+  EXPECT_NEAR(stiffening_of_a_rod(-0.9, 6), 0.54, 0.03);
+  EXPECT_NEAR(stiffening_of_a_rod(0.3, 2), 0.039, 0.002);
 }
 
 TEST(MeshQuality, StairsAndPartsAndAnglesAreWarnedAbout) {
