@@ -13,7 +13,8 @@ namespace brisance::coupling {
 
 /// A cell that enters a sweep with a reflected state.
 struct MirrorCell {
-  Index slot = -1;      ///< image cell in the gather, -1: none
+  Index place = -1;     ///< image cell in WallBlock::images, -1: none
+  Index slot = -1;      ///< the same in the gather of all blocks
   Vec3 normal;          ///< unit
   Real wall_speed = 0;  ///< normal velocity of the wall, m/s
   Vec3 wall_velocity;   ///< m/s
@@ -51,6 +52,7 @@ struct WallBlock {
   std::array<std::vector<Run>, 3> runs;  ///< longest first
   std::array<std::vector<RunEnd>, 3> ends;
   std::vector<std::pair<CellIndex, MirrorCell>> solid;  ///< local cells with their general mirror states
+  std::vector<GlobalId> images;                         ///< of all mirror cells of the block
 };
 
 class WallSweeper : public fluid::BlockSweeper {
@@ -59,6 +61,9 @@ class WallSweeper : public fluid::BlockSweeper {
 
   /// Collective. New runs, mirrors and images for the geometry of `record`; then the general mirror states are set.
   void rebuild(WallRecord const& record);
+  /// Collective. The same for a record that differs from the last one in `changed` only: blocks out of reach of it keep
+  /// their runs and closest points.
+  void update(WallRecord const& record, std::span<CellBox const> changed);
   /// Collective. The record moved elsewhere in memory but is the same: mirror states of the present fields.
   void keep(WallRecord const& record);
   /// Collective. Puts a mirrored state into every solid cell near the walls; `mirrored`: image -> state.
@@ -77,8 +82,10 @@ class WallSweeper : public fluid::BlockSweeper {
   std::size_t bytes() const;
 
  private:
-  void find_runs(fluid::Block const& block, WallBlock& wall, int direction, std::vector<GlobalId>& wanted);
-  void find_solid(fluid::Block const& block, WallBlock& wall, std::vector<GlobalId>& wanted);
+  void renew(fluid::Block const& block);
+  void gather_images();
+  void find_runs(fluid::Block const& block, WallBlock& wall, int direction);
+  void find_solid(fluid::Block const& block, WallBlock& wall);
   MirrorCell mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted) const;
   void refresh_mirrors();
   void flux_between_solids(fluid::Block const& block, WallBlock& wall, int direction, Real sigma) const;
