@@ -23,28 +23,6 @@ std::vector<std::string> const& catalogue() {
   return names;
 }
 
-std::vector<Index> count_cut_cells(fluid::Grid const& grid, solid::Mesh const& mesh, solid::Surface const& surface) {
-  std::vector<coupling::SurfaceTriangle> triangles;
-  for (solid::Element const& t : surface.elements()) {
-    coupling::SurfaceTriangle triangle;
-    triangle.id = t.id;
-    for (std::size_t a = 0; a < static_cast<std::size_t>(grid.dimension); ++a) {
-      triangle.vertex[a] = t.vertex[a];
-      triangle.x_new[a] = surface.reference(t.vertex[a], mesh);
-    }
-    triangle.x_old = triangle.x_new;
-    triangles.push_back(triangle);
-  }
-  coupling::Lattice const lattice{grid.dimension, grid.low, grid.spacing};
-  coupling::CellBox const all{{0, 0, 0}, grid.cells};
-  coupling::Geometry geometry;
-  coupling::build(lattice, triangles, std::span(&all, 1), geometry);
-  coupling::require_closed(lattice, geometry);
-  std::vector<Index> count(static_cast<std::size_t>(grid.block_count()), 0);
-  for (coupling::CutCell const& c : geometry.cells) ++count[static_cast<std::size_t>(grid.block_of(c.cell))];
-  return count;
-}
-
 /// Runs of cells and groups of small cells do not reach through periodic sides.
 void require_clear_periodic_sides(Scene const& scene, fluid::Grid const& grid, solid::Mesh const& mesh,
                                   solid::Surface const& surface) {
@@ -77,7 +55,7 @@ void require_gauges_in_the_gas(Scene const& scene, fluid::Grid const& grid, soli
 }
 
 parallel::Partition assign_owners(Scene const& scene, fluid::Grid const* grid, solid::Mesh const* mesh,
-                                  std::vector<Index> const& cut_cells_of_block, int ranks) {
+                                  std::vector<std::int64_t> const& wall_work_of_block, int ranks) {
   std::int64_t const blocks = grid ? grid->block_count() : 0, particles = mesh ? mesh->size() : 0;
   std::int64_t const units = grid ? blocks : particles;
   require(ranks <= units, Failure::scene,
@@ -94,7 +72,6 @@ parallel::Partition assign_owners(Scene const& scene, fluid::Grid const* grid, s
   auto const nc = static_cast<std::size_t>(graph.constraints);
   graph.vertex_weight.assign(static_cast<std::size_t>(blocks + particles) * nc, 0);
   Index const ghost = scene.fluid ? fluid::ghost_depth(scene.fluid->order()) : 0;
-  std::int64_t const cost_of_cut_cell = grid && grid->dimension == 3 ? 250 : 50;  // in plain cells (coupling 8.4)
   for (Index b = 0; b < blocks; ++b) {
     auto const p = grid->block_position(b);
     std::array<std::int64_t, 3> size{};
@@ -109,8 +86,8 @@ parallel::Partition assign_owners(Scene const& scene, fluid::Grid const* grid, s
       n[d] = (p[d] + 1) % grid->blocks_along(static_cast<int>(d));
       if (grid->block_id(n) != b) edges.push_back({b, grid->block_id(n), 40 * 2 * ghost * cells / size[d]});
     }
-    std::int64_t const cut = cut_cells_of_block.empty() ? 0 : cut_cells_of_block[static_cast<std::size_t>(b)];
-    graph.vertex_weight[static_cast<std::size_t>(b) * nc] = cells + ghosts + cost_of_cut_cell * cut;
+    std::int64_t const walls = wall_work_of_block.empty() ? 0 : wall_work_of_block[static_cast<std::size_t>(b)];
+    graph.vertex_weight[static_cast<std::size_t>(b) * nc] = cells + ghosts + walls;  // coupling 8.4
   }
   if (mesh) {
     for (solid::Link const& link : mesh->links)
@@ -212,8 +189,9 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
         "Model the whole body, or leave out the coupling");
   if (coupled) require_clear_periodic_sides(scene, *grid, *w.mesh, *w.surface);
   if (coupled) require_gauges_in_the_gas(scene, *grid, *w.mesh);
-  if (coupled) w.cut_cells_of_block = count_cut_cells(*grid, *w.mesh, *w.surface);
-  w.partition = assign_owners(scene, grid ? &*grid : nullptr, w.mesh.get(), w.cut_cells_of_block, comm.size());
+  if (coupled) w.walls = survey_walls(*grid, *w.mesh, *w.surface);
+  if (!w.walls.thin.empty()) w.plan.remark(w.walls.thin);
+  w.partition = assign_owners(scene, grid ? &*grid : nullptr, w.mesh.get(), w.walls.work, comm.size());
   auto const blocks = static_cast<std::ptrdiff_t>(grid ? grid->block_count() : 0);
   auto const& owner = w.partition.owner;
   if (grid)

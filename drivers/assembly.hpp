@@ -12,6 +12,7 @@
 #include "coupling/body_loads/body_loads.hpp"
 #include "coupling/cut_cells/cut_cells.hpp"
 #include "drivers/scene.hpp"
+#include "drivers/wall_survey.hpp"
 #include "fluid/diffusion/viscosity.hpp"
 #include "fluid/euler.hpp"
 #include "fluid/flow.hpp"
@@ -28,7 +29,7 @@ struct World {
   std::unique_ptr<solid::Mesh> mesh;
   std::shared_ptr<solid::Surface const> surface;  ///< of the reference state, without broken links
   parallel::Partition partition;
-  std::vector<Index> cut_cells_of_block;  ///< at the start
+  WallSurvey walls;  ///< at the start
   std::unique_ptr<fluid::Flow> flow;
   std::unique_ptr<solid::Solid> solid;
   std::unique_ptr<fluid::Euler> euler;
@@ -49,13 +50,10 @@ struct World {
 /// Errors: scene errors (nothing is written before this returns).
 std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm);
 
-/// Owners of blocks (first) and particles on `ranks` ranks: one graph for both (house, section 8).
-/// Errors: scene error when there are more ranks than blocks (without a fluid: than particles).
+/// Owners of blocks (first) and particles on `ranks` ranks, with the work of walls in plain cells: one graph for both
+/// (house, section 8). Errors: scene error when there are more ranks than blocks (without a fluid: than particles).
 parallel::Partition assign_owners(Scene const& scene, fluid::Grid const* grid, solid::Mesh const* mesh,
-                                  std::vector<Index> const& cut_cells_of_block, int ranks);
-
-/// Cut cells of each block for the bodies in their initial positions.
-std::vector<Index> count_cut_cells(fluid::Grid const& grid, solid::Mesh const& mesh, solid::Surface const& surface);
+                                  std::vector<std::int64_t> const& wall_work_of_block, int ranks);
 
 /// What walls leave of the cells to the fluid; all of it without a coupling.
 fluid::FluidVolume fluid_volumes(World const& world);

@@ -132,12 +132,11 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
   Scene const& scene = loaded.scene;
   auto const world = assemble(scene, comm);  // validates bodies, geometry and ownership as a run does
   fluid::Grid const* grid = world->flow ? &world->flow->grid() : nullptr;
-  parallel::Partition const partition =
-      assign_owners(scene, grid, world->mesh.get(), world->cut_cells_of_block, options.ranks);
+  parallel::Partition const partition = assign_owners(scene, grid, world->mesh.get(), world->walls.work, options.ranks);
 
   GlobalId const cells = grid ? grid->cell_count() : 0;
   std::int64_t cut = 0;
-  for (Index const n : world->cut_cells_of_block) cut += n;
+  for (Index const n : world->walls.cells) cut += n;
   std::int64_t const particles = world->mesh ? world->mesh->size() : 0;
   auto const links = static_cast<std::int64_t>(world->mesh ? world->mesh->links.size() : 0);
   std::vector<fluid::ChargeReport> charges;
@@ -173,8 +172,8 @@ int check_scene(CheckOptions const& options, parallel::Comm& comm) {
     }
     Real need = (scene.fluid->products ? 112 : 80) * stored;  // five or seven doubles, and a copy for rejected pairs
     if (scene.fluid->viscosity && scene.fluid->viscosity->time == "strang") need += 32 * plain;
-    if (!world->cut_cells_of_block.empty() && world->cut_cells_of_block[static_cast<std::size_t>(b)] > 0)
-      need += (40 + 48.0 * grid->dimension) * plain + 4000.0 * world->cut_cells_of_block[static_cast<std::size_t>(b)];
+    if (!world->walls.cells.empty() && world->walls.cells[static_cast<std::size_t>(b)] > 0)
+      need += (40 + 48.0 * grid->dimension) * plain + 4000.0 * world->walls.cells[static_cast<std::size_t>(b)];
     bytes[static_cast<std::size_t>(partition.owner[static_cast<std::size_t>(b)])] += need;
   }
   for (std::int64_t p = 0; p < particles; ++p)

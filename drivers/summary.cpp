@@ -75,22 +75,25 @@ void write_summary(World& world, RunState const& run, std::string const& directo
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   std::vector<double> mine{static_cast<double>(usage.ru_maxrss) * 1024, 0};
+  coupling::WallCost const walls = world.cut_cells ? world.cut_cells->cost() : coupling::WallCost{};
   for (Plan::EffectCost const& e : world.plan.effects()) {
     mine[1] += e.wall_s;
     mine.push_back(e.wall_s);
     mine.push_back(static_cast<double>(e.bytes()));
   }
   fluid::Flow::Saved const saved = world.flow ? world.flow->saved_by_sleep() : fluid::Flow::Saved{};
+  mine.insert(mine.end(), {walls.geometry_s, walls.closest_s, walls.exchange_s});
   std::int64_t counts[] = {world.cut_cells ? world.cut_cells->cut_cell_count() : 0,
                            world.euler ? world.euler->fallback_faces() : 0,
                            world.euler ? world.euler->cell_updates() : 0,
                            world.dynamics ? world.dynamics->link_updates() : 0,
-                           world.cut_cells ? world.cut_cells->cut_cells_done() : 0,
+                           world.cut_cells ? world.cut_cells->cost().cut : 0,
                            saved.block_sweeps,
                            saved.block_sweeps_skipped,
                            saved.cell_sweeps,
                            saved.cell_sweeps_skipped,
-                           world.dynamics ? world.dynamics->links_asleep() : 0};
+                           world.dynamics ? world.dynamics->links_asleep() : 0,
+                           world.cut_cells ? world.cut_cells->cost().moving : 0};
   comm.sum(std::span(counts));
   parallel::Bytes bytes(mine.size() * sizeof(double));
   std::memcpy(bytes.data(), mine.data(), bytes.size());
@@ -99,11 +102,13 @@ void write_summary(World& world, RunState const& run, std::string const& directo
   std::string text;
   if (comm.rank() == 0) {
     std::vector<double> memory, busy, cells;
+    std::array<double, 3> wall_s{};  // geometry, closest points, exchange, over all ranks
     std::vector<double> effect_wall(world.plan.effects().size(), 0), effect_bytes(world.plan.effects().size(), 0);
     for (parallel::Bytes const& b : gathered) {
       std::vector<double> v(mine.size());
       std::memcpy(v.data(), b.data(), b.size());
       memory.push_back(v[0]);
+      for (std::size_t w = 0; w < 3; ++w) wall_s[w] += v[v.size() - 3 + w];
       busy.push_back(v[1]);
       for (std::size_t e = 0; e < effect_wall.size(); ++e) {
         effect_wall[e] = std::max(effect_wall[e], v[2 + 2 * e]);
@@ -154,6 +159,19 @@ void write_summary(World& world, RunState const& run, std::string const& directo
     j["throughput"] = {{"cell_updates_per_s", static_cast<double>(counts[2]) / loop_s},
                        {"link_updates_per_s", static_cast<double>(counts[3]) / loop_s},
                        {"cut_cells_per_s", static_cast<double>(counts[4]) / loop_s}};
+    if (world.cut_cells) {
+      double const all_s = loop_s * comm.size(),
+                   cells_done = static_cast<double>(walls.steps) * static_cast<double>(world.flow->grid().cell_count());
+      j["geometry"] = {
+          {"wall_s", wall_s[0]},
+          {"share", wall_s[0] / all_s},
+          {"closest_points_s", wall_s[1]},
+          {"exchange_s", wall_s[2]},
+          {"cut_cells_per_cell", cells_done > 0 ? static_cast<double>(counts[4]) / cells_done : 0},
+          {"moving_cut_cells", counts[10]},
+          {"us_per_moving_cut_cell", counts[10] > 0 ? nlohmann::json(1e6 * wall_s[0] / static_cast<double>(counts[10]))
+                                                    : nlohmann::json(nullptr)}};
+    }
     if (world.flow && counts[7] > 0) {
       // Share of the work of the sweeps, and how much faster they are for it. Since the program started, as timings.
       double const share = static_cast<double>(counts[8]) / static_cast<double>(counts[7]);

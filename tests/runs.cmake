@@ -31,6 +31,7 @@ brisance_same_digest(sphere-lift-off ${scenes}/sphere-lift-off.toml 8 --set "flu
 brisance_same_digest(breaking-wall ${scenes}/breaking-wall.toml 60 --set output.interval=1e-4)
 brisance_same_digest(bursting-sphere ${scenes}/bursting-sphere.toml 24 --set "fluid.cells=[24, 24, 24]" --set fluid.block=12)
 brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40)
+brisance_same_digest(held-wall ${PROJECT_SOURCE_DIR}/tests/support/scenes/held-wall.toml 80)
 brisance_same_digest(bursting-shell ${scenes}/bursting-shell.toml 80)
 brisance_same_digest(colliding-fragments ${scenes}/colliding-fragments.toml 330)
 brisance_same_digest(blast-bricks ${scenes}/blast-bricks.toml 40 --set "fluid.cells=[24, 18, 12]" --set fluid.block=6)

@@ -27,16 +27,20 @@ void CutCells::transfers() {
   std::vector<CellBox> near;
   for (Block const& block : std::as_const(flow_).blocks()) near.push_back(grown(grid, box_of(block), 1));
   std::vector<GlobalId> wanted;
+  auto watch = std::make_optional<Stopwatch>(cost_.geometry_s);
   for (CutCell const& cut : next_.geometry.cells) {
     if (!grid.inside(cut.cell)) continue;
     bool const here = owned(cut.cell);
     if (!here && std::none_of(near.begin(), near.end(), [&](CellBox const& b) { return b.holds(cut.cell); })) continue;
     GlobalId const to = grid.cell_id(cut.cell);
+    bool moving = false;
     for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
       Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
-      swept_.clear();
-      swept(next_.lattice(), next_.geometry, piece, next_.triangles[static_cast<std::size_t>(piece.triangle)], swept_);
       SurfaceTriangle const& triangle = next_.triangles[static_cast<std::size_t>(piece.triangle)];
+      if (!triangle.moved(grid.dimension)) continue;
+      moving = true;
+      swept_.clear();
+      swept(next_.lattice(), next_.geometry, piece, triangle, swept_);
       Vec3 before;
       for (std::size_t a = 0; a < 3; ++a) before += piece.bary_centroid[a] * triangle.x_old[a];
       Vec3 const middle = 0.5 * (before + piece.centroid);
@@ -52,7 +56,9 @@ void CutCells::transfers() {
         wanted.push_back(transfers_.back().from);
       }
     }
+    cost_.moving += moving && here;
   }
+  watch.reset();
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   swept_states_.plan(comm_, flow_, std::move(wanted));

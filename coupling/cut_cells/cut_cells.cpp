@@ -4,6 +4,7 @@
 
 #include "core/base/errors.hpp"
 #include "coupling/cut_cells/cell_geometry.hpp"
+#include "coupling/cut_cells/identities.hpp"
 #include "coupling/cut_cells/mixing.hpp"
 #include "coupling/cut_cells/redistribution.hpp"
 #include "coupling/cut_cells/wall_centroids.hpp"
@@ -14,12 +15,6 @@ namespace brisance::coupling {
 using fluid::Block;
 using fluid::State;
 
-namespace {
-/// Cells around its blocks within which a rank keeps pieces: runs beyond the ghosts, projections, images and their
-/// neighbourhoods all stay inside.
-constexpr Index margin = 20;
-}  // namespace
-
 CutCells::CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flow& flow, solid::Solid& solid,
                    std::shared_ptr<solid::Surface const> surface, fluid::State const& ambient, parallel::Comm& comm)
     : config_(config),
@@ -28,10 +23,10 @@ CutCells::CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flo
       flow_(flow),
       solid_(solid),
       comm_(comm),
-      surface_(solid, std::move(surface), flow, comm, margin),
+      surface_(solid, std::move(surface), flow, comm, wall_margin),
       sweeper_(flow, comm) {
   std::vector<CellBox> region;
-  for (Block const& block : flow.blocks()) region.push_back(grown(flow.grid(), box_of(block), margin));
+  for (Block const& block : flow.blocks()) region.push_back(grown(flow.grid(), box_of(block), wall_margin));
   for (WallRecord* r : {&record_, &next_}) {
     r->set_grid(flow.grid());
     r->set_region(region);
@@ -80,7 +75,7 @@ void CutCells::begin() {
 void CutCells::rebuild_record() {
   record_.rebuild();
   sweeper_.rebuild(record_);
-  same_ = false;
+  quiet_ = 0;
   if (viscous_) viscous_->forget_plan();
 }
 
@@ -106,7 +101,10 @@ void CutCells::join(Plan& plan) {
       plan.ask_for_boundary();
   });
   plan.at(Stage::drift, [this](Clock const& c) { end_drift(c); });
-  plan.at(Stage::flow_update, [this](Clock const& c) { update_contents(c.dt); });
+  plan.at(Stage::flow_update, [this](Clock const& c) {
+    if constexpr (check_identities) require_identities(c);
+    update_contents(c.dt);
+  });
   if (ambient_pressure_) plan.at(Stage::flow_update, [this](Clock const& c) { ambient_account(c.dt); });
   plan.at(Stage::mix, [this](Clock const&) { mix(); });
   plan.at(Stage::fill, [this](Clock const&) { fill(); });
@@ -182,25 +180,34 @@ void CutCells::new_geometry() {
   if (across && health_.good)
     health_ = {false, "a body reaches a periodic side of the domain at (" + std::to_string(across->x) + ", " +
                           std::to_string(across->y) + ", " + std::to_string(across->z) + ") m"};
-  std::int64_t state[2] = {surface_.moved(), lost || across};
+  std::int64_t state[3] = {surface_.moved(), lost || across, surface_.news()};
   comm_.sum(std::span(state));
   moved_ = state[0] > 0;
+  // `semi` comes here several times a step, `explicit` sends its velocities with the triangles: nothing is left out.
+  quiet_ = state[2] > 0 || scheme_ != TimeCoupling::lag ? 0 : quiet_ + 1;
+  news_ = quiet_ == 0;
   bool const built = state[1] == 0 && build_next();
   if (!built) {  // the boundary rests in this step, and the pair is rejected after it
     surface_.hold();
     moved_ = false;
-    same_ = false;
+    quiet_ = 0;
+    news_ = true;
     build_next();
   }
-  same_ = !moved_;
-  if (linear_) sweeper_.make_profiles(next_, same_);
+  if (linear_) sweeper_.make_profiles(next_, !moved_);
 }
 
 bool CutCells::build_next() {
-  surface_.send_triangles(next_.triangles);
-  if (!moved_ && same_) return true;
+  if (quiet_ > 2) return true;  // both records hold the same since two steps
+  if (quiet_ > 0) {
+    surface_.repeat_triangles(record_.triangles, next_.triangles);
+  } else {
+    Stopwatch const watch(cost_.exchange_s);
+    surface_.send_triangles(next_.triangles);
+  }
   std::int64_t folded = 0;
   try {
+    Stopwatch const watch(cost_.geometry_s);
     next_.rebuild();
   } catch (Error const& error) {
     folded = 1;
@@ -364,18 +371,30 @@ Merging CutCells::merge_everywhere(std::vector<NearCell>& cells) {
 }
 
 void CutCells::fill() {
-  for (CutCell const& cut : next_.geometry.cells) cut_cells_done_ += owned(cut.cell) ? 1 : 0;
+  ++cost_.steps;
+  for (CutCell const& cut : next_.geometry.cells) cost_.cut += owned(cut.cell) ? 1 : 0;
   // Mirror states hold the velocity of the wall: they are made anew when it changed, as a restart would make them.
-  std::int64_t changed = 0;
-  for (std::size_t t = 0; t < next_.triangles.size(); ++t)
-    if (moved_ || next_.triangles[t].velocity != record_.triangles[t].velocity) changed = 1;
+  std::vector<CellBox> differences;
+  if (news_) differences = WallRecord::differences(record_, next_);
+  std::int64_t changed = differences.empty() ? 0 : 1;
   comm_.sum(std::span(&changed, 1));
   std::swap(record_, next_);
   surface_.accept();
-  if (changed > 0)
-    sweeper_.rebuild(record_);
-  else
+  if (changed > 0) {
+    quiet_ = 0;
+    Stopwatch const watch(cost_.closest_s);
+    sweeper_.update(record_, differences);
+  } else {
     sweeper_.keep(record_);
+  }
+}
+
+void CutCells::require_identities(Clock const& clock) const {
+  std::vector<CellBox> own;
+  for (Block const& block : std::as_const(flow_).blocks()) own.push_back(box_of(block));
+  std::string const broken = broken_identity(record_, next_, own);
+  require(broken.empty(), Failure::internal,
+          "step " + std::to_string(clock.step) + ", t = " + std::to_string(clock.time) + " s: " + broken);
 }
 
 bool CutCells::gather_broken() {

@@ -13,6 +13,7 @@
 #include "coupling/cut_cells/mixing.hpp"
 #include "coupling/cut_cells/start_exchange.hpp"
 #include "coupling/cut_cells/viscous_wall.hpp"
+#include "coupling/cut_cells/wall_cost.hpp"
 #include "coupling/cut_cells/wall_surface.hpp"
 #include "coupling/cut_cells/wall_sweeper.hpp"
 #include "coupling/geometry/swept.hpp"
@@ -50,9 +51,7 @@ class CutCells : public Effect {
     return {[this](CellIndex c) { return fluid_volume(c); }, [this](Index block) { return sweeper_.handles(block); }};
   }
   GlobalId cut_cell_count() const;  ///< of this rank's blocks
-  /// Seconds spent in geometry (clipping, fractions, swept volumes) and cut cells handled, for the rates of the
-  /// summary.
-  std::int64_t cut_cells_done() const { return cut_cells_done_; }
+  WallCost const& cost() const { return cost_; }
 
  private:
   struct Content {
@@ -105,6 +104,7 @@ class CutCells : public Effect {
   void ambient_account(Real dt);
   /// Force on the solid where the fluid exerts `chi` times `pressure` on a piece, N.
   Vec3 force_on_solid(Real chi, Vec3 const& pressure, Vec3 const& area) const;
+  void require_identities(Clock const& clock) const;  ///< debug builds
   void rebuild_record();
   fluid::State content_before(CellIndex c) const;
   /// What the profiles add to the flux through a face of `c`, times its area: of its open part, whose centroid is not
@@ -126,7 +126,8 @@ class CutCells : public Effect {
   WallSweeper sweeper_;
   WallRecord record_, next_;  ///< t^n, t^{n+1}
   bool moved_ = true;         ///< any triangle of any rank moved in this step
-  bool same_ = false;         ///< next_ holds the geometry of record_
+  int quiet_ = 0;             ///< steps on end in which no vertex moved or changed its velocity
+  bool news_ = true;          ///< in this step some triangle of this rank moved or changed its velocity
   solid::Solid::Saved solid_before_;
   std::vector<bool> broken_, broken_saved_;  ///< links of the mesh; empty when none can break
   std::vector<GlobalId> vacuum_;             ///< by id
@@ -160,7 +161,7 @@ class CutCells : public Effect {
   parallel::ExactSum wall_work_, pressure_impulse_, exchanged_energy_, wall_heat_;
   std::optional<Real> ambient_pressure_;             ///< loads are relative to it, Pa
   std::array<parallel::ExactSum, 4> ambient_given_;  ///< impulse and energy the solid got beyond what the fluid gave
-  std::int64_t cut_cells_done_ = 0;
+  WallCost cost_;
 };
 
 }  // namespace brisance::coupling

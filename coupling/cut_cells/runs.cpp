@@ -31,13 +31,12 @@ MirrorCell WallSweeper::mirror(CellIndex c, int direction, int side, std::vector
   }
   GlobalId const id = grid.cell_id(chosen);
   wanted.push_back(id);
-  // The place in `wanted` for now; becomes the slot once the list is sorted.
   Vec3 offset = image - grid.centre(chosen);
   for (int d = 0; d < 3; ++d) offset[d] = d < grid.dimension ? clamp(offset[d], -grid.spacing[d], grid.spacing[d]) : 0;
-  return {static_cast<Index>(wanted.size()) - 1, offset, p.normal, dot(p.velocity, p.normal), p.velocity};
+  return {static_cast<Index>(wanted.size()) - 1, -1, offset, p.normal, dot(p.velocity, p.normal), p.velocity};
 }
 
-void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction, std::vector<GlobalId>& wanted) {
+void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction) {
   auto const d = static_cast<std::size_t>(direction);
   std::size_t const t0 = d == 0 ? 1 : 0, t1 = d == 2 ? 1 : 2;
   auto& runs = wall.runs[d];
@@ -51,8 +50,8 @@ void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction, 
     for (std::size_t m = 0; m < 3; ++m) {
       CellIndex c = last;
       c[d] += outwards * (static_cast<Index>(m) + 1);
-      end.mirror[m] = mirror(c, direction, -outwards, wanted);
-      end.general[m] = end.mirror[m].slot < 0 && m < 2 && record_->solid(c);
+      end.mirror[m] = mirror(c, direction, -outwards, wall.images);
+      end.general[m] = end.mirror[m].place < 0 && m < 2 && record_->solid(c);
     }
     ends.push_back(end);
     return static_cast<Index>(ends.size()) - 1;
@@ -90,7 +89,7 @@ void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction, 
   std::stable_sort(runs.begin(), runs.end(), [&](auto const& x, auto const& y) { return length(x) > length(y); });
 }
 
-void WallSweeper::find_solid(Block const& block, WallBlock& wall, std::vector<GlobalId>& wanted) {
+void WallSweeper::find_solid(Block const& block, WallBlock& wall) {
   wall.solid.clear();
   fluid::Grid const& grid = flow_.grid();
   CellIndex const first = block.first();
@@ -107,28 +106,57 @@ void WallSweeper::find_solid(Block const& block, WallBlock& wall, std::vector<Gl
   std::sort(near.begin(), near.end());
   for (GlobalId const id : near) {
     CellIndex const c = cell_from_id(grid, id);
-    MirrorCell const m = mirror(c, -1, 0, wanted);
+    MirrorCell const m = mirror(c, -1, 0, wall.images);
     wall.solid.emplace_back(CellIndex{c[0] - first[0], c[1] - first[1], c[2] - first[2]}, m);
   }
 }
 
+void WallSweeper::renew(Block const& block) {
+  fluid::Grid const& grid = flow_.grid();
+  // Two cells beyond the ghosts: what is cut after the next step has its fluxes kept too.
+  if (!record_->touches(grown(grid, box_of(block), block.ghost()[0] + 2))) {
+    blocks_.erase(block.id());
+    return;
+  }
+  WallBlock& wall = blocks_[block.id()];
+  wall.size = block.size();
+  wall.images.clear();
+  for (int d = 0; d < grid.dimension; ++d) find_runs(block, wall, d);
+  find_solid(block, wall);
+}
+
 void WallSweeper::rebuild(WallRecord const& record) {
   record_ = &record;
+  for (Block const& block : std::as_const(flow_).blocks()) renew(block);
+  gather_images();
+}
+
+void WallSweeper::update(WallRecord const& record, std::span<CellBox const> changed) {
+  record_ = &record;
   fluid::Grid const& grid = flow_.grid();
-  std::vector<GlobalId> wanted;
-  for (Block const& block : std::as_const(flow_).blocks()) {
-    CellBox const own = box_of(block);
-    // Two cells beyond the ghosts: what is cut after the next step has its fluxes kept too.
-    if (!record.touches(grown(grid, own, block.ghost()[0] + 2))) {
-      blocks_.erase(block.id());
-      continue;
+  std::vector<Index> stale;
+  for (CellBox const& box : changed) {
+    CellBox const around = grown(grid, box, wall_reach);
+    CellIndex low{}, high{};  // runs and images do not reach through periodic sides
+    for (std::size_t d = 0; d < 3; ++d) {
+      low[d] = std::clamp(around.low[d], 0, grid.cells[d] - 1);
+      high[d] = std::clamp(around.high[d] - 1, 0, grid.cells[d] - 1);
     }
-    WallBlock& wall = blocks_[block.id()];
-    wall.size = block.size();
-    for (int d = 0; d < grid.dimension; ++d) find_runs(block, wall, d, wanted);
-    find_solid(block, wall, wanted);
+    auto const b0 = grid.block_position(grid.block_of(low)), b1 = grid.block_position(grid.block_of(high));
+    for (Index bz = b0[2]; bz <= b1[2]; ++bz)
+      for (Index by = b0[1]; by <= b1[1]; ++by)
+        for (Index bx = b0[0]; bx <= b1[0]; ++bx) stale.push_back(grid.block_id({bx, by, bz}));
   }
-  std::vector<GlobalId> list = wanted;
+  std::sort(stale.begin(), stale.end());
+  stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
+  for (Block const& block : std::as_const(flow_).blocks())
+    if (std::binary_search(stale.begin(), stale.end(), block.id())) renew(block);
+  gather_images();
+}
+
+void WallSweeper::gather_images() {
+  std::vector<GlobalId> list;
+  for (auto const& [id, wall] : blocks_) list.insert(list.end(), wall.images.begin(), wall.images.end());
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
   image_cells_ = list;
@@ -136,10 +164,10 @@ void WallSweeper::rebuild(WallRecord const& record) {
   profiled_ = false;
   profiles_.clear();
   image_slopes_.clear();
-  auto const to_slot = [&](MirrorCell& m) {
-    if (m.slot >= 0) m.slot = images_.slot(wanted[static_cast<std::size_t>(m.slot)]);
-  };
   for (auto& [id, wall] : blocks_) {
+    auto const to_slot = [&](MirrorCell& m) {
+      if (m.place >= 0) m.slot = images_.slot(wall.images[static_cast<std::size_t>(m.place)]);
+    };
     for (auto& ends : wall.ends)
       for (WallBlock::RunEnd& end : ends)
         for (MirrorCell& m : end.mirror) to_slot(m);

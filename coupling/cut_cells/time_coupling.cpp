@@ -71,7 +71,8 @@ void CutCells::end_drift(Clock const& clock) {
   solid_.add_load_work(clock.dt, wall_work_);
   bool const last = clock.sub_step + 1 == clock.sub_steps;
   // In `explicit` they travel with the triangles that are still to come.
-  if (last && scheme_ != TimeCoupling::explicit_load) surface_.send_velocities(next_.triangles);
+  Stopwatch const watch(cost_.exchange_s);
+  if (last && scheme_ != TimeCoupling::explicit_load && surface_.send_velocities(next_.triangles)) news_ = true;
 }
 
 std::pair<LightestPlace, Real> CutCells::weigh() const {

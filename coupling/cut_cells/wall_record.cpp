@@ -15,36 +15,6 @@ void WallRecord::set_grid(fluid::Grid const& grid) {
   for (int d = 0; d < 3; ++d) face_area_[d] = grid.face_area(d);
 }
 
-void WallRecord::rebuild() {
-  // Forget the cells of the last build before the geometry that lists them is overwritten.
-  for (CutCell const& c : geometry.cells)
-    if (map_.range().holds(c.cell)) map_.set(c.cell, uncut_fluid);
-  for (SolidRun const& run : geometry.solid)
-    for (Index i = 0; i < run.count; ++i) {
-      CellIndex const c{run.first[0] + i, run.first[1], run.first[2]};
-      if (map_.range().holds(c)) map_.set(c, uncut_fluid);
-    }
-  build(lattice_, triangles, region_, geometry);
-  require_closed(lattice_, geometry);
-
-  CellBox box{
-      {std::numeric_limits<Index>::max(), std::numeric_limits<Index>::max(), std::numeric_limits<Index>::max()},
-      {std::numeric_limits<Index>::min(), std::numeric_limits<Index>::min(), std::numeric_limits<Index>::min()}};
-  auto const enclose = [&](CellIndex c, Index count) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      box.low[d] = std::min(box.low[d], c[d]);
-      box.high[d] = std::max(box.high[d], c[d] + (d == 0 ? count : 1));
-    }
-  };
-  for (CutCell const& c : geometry.cells) enclose(c.cell, 1);
-  for (SolidRun const& run : geometry.solid) enclose(run.first, run.count);
-  if (empty(box)) return;
-  if (!contains(map_.range(), box)) map_.cover(grown(*grid_, box, 4), uncut_fluid);
-  for (SolidRun const& run : geometry.solid)
-    for (Index i = 0; i < run.count; ++i) map_.set({run.first[0] + i, run.first[1], run.first[2]}, uncut_solid);
-  for (std::size_t i = 0; i < geometry.cells.size(); ++i) map_.set(geometry.cells[i].cell, static_cast<Index>(i));
-}
-
 bool WallRecord::touches(CellBox const& range) const {
   CellBox const& known = map_.range();
   CellIndex c;

@@ -1,5 +1,7 @@
 // The solid boundary at one time level as the fluid of this rank sees it: triangles, cut cells, and what every cell is.
 #pragma once
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "coupling/cut_cells/cell_map.hpp"
@@ -7,6 +9,12 @@
 #include "fluid/grid/grid.hpp"
 
 namespace brisance::coupling {
+
+/// Cells around its blocks within which a rank keeps pieces: runs beyond the ghosts, projections, images and their
+/// neighbourhoods all stay inside.
+constexpr Index wall_margin = 20;
+/// A block knows nothing of a wall farther than this.
+constexpr Index wall_reach = wall_margin + 4;
 
 /// Fluid fraction below which a cell counts as solid (theory/coupling.md 1.9).
 constexpr Real covered_fraction = 1e-9;
@@ -28,7 +36,9 @@ class WallRecord {
   std::vector<SurfaceTriangle> triangles;
   Geometry geometry;
 
-  /// Cuts the cells by `triangles`. Errors: scene or numerical error when the surface is not closed.
+  /// Cuts the cells by `triangles`. Closed surfaces whose vertices are where they were in the last call, and which no
+  /// moving one is next to, keep their pieces and cells: these come first in `geometry`, sorted among themselves, and
+  /// cost a comparison of their vertices. Errors: numerical error when the surface is not closed.
   void rebuild();
 
   bool solid(CellIndex c) const {
@@ -68,8 +78,25 @@ class WallRecord {
     return bary[0] * t.velocity[0] + bary[1] * t.velocity[1] + bary[2] * t.velocity[2];
   }
   std::size_t bytes() const { return map_.bytes() + geometry.pieces.capacity() * sizeof(Piece); }
+  /// Boxes of the triangles that moved, changed their velocity, came or went between two records.
+  static std::vector<CellBox> differences(WallRecord const& a, WallRecord const& b);
 
  private:
+  /// Sizes of `geometry` up to some place.
+  struct Extent {
+    std::size_t pieces = 0, corners = 0, cells = 0, runs = 0;
+  };
+  Extent extent() const {
+    return {geometry.pieces.size(), geometry.corners.size(), geometry.cells.size(), geometry.solid.size()};
+  }
+  void forget(Extent const& from);
+  void enter(Extent const& from);
+  void clear();
+  std::vector<GlobalId> unmoved_surfaces();
+  void cut_resting();
+  std::vector<GlobalId> resting_beside(Geometry const& moving) const;
+  void append(Geometry const& part, std::vector<Index> const& place);
+
   static constexpr Index uncut_fluid = -1, uncut_solid = -2;
   fluid::Grid const* grid_ = nullptr;
   Lattice lattice_;
@@ -77,6 +104,24 @@ class WallRecord {
   Vec3 face_area_;
   std::vector<CellBox> region_;
   CellMap<Index> map_;
+
+  struct Known {
+    GlobalId id, surface;
+    std::array<Vec3, 3> x;
+  };
+  std::vector<Known> known_;       ///< triangles of the last rebuild
+  std::vector<GlobalId> resting_;  ///< surfaces whose cells come first in `geometry`, up to `rest_`
+  std::vector<GlobalId> beside_;   ///< surfaces that rest next to a moving one: cut with it
+  Extent rest_;
+  std::vector<Index> rest_place_;                       ///< per triangle at rest: its place in `triangles`
+  std::vector<Index> rest_piece_;                       ///< per piece at rest: its triangle, a place in rest_place_
+  using RestCell = std::pair<std::uint64_t, GlobalId>;  ///< key, surface
+  std::vector<RestCell> rest_cells_;                    ///< cut by surfaces at rest, kept or not, sorted
+  Index rebuilds_ = 0;
+  Real rest_residual_ = 0, rest_mismatch_ = 0;
+  Index rest_overlapped_ = 0, rest_inverted_ = 0;
+  Geometry part_;  ///< work space
+  std::vector<SurfaceTriangle> part_triangles_;
 };
 
 }  // namespace brisance::coupling

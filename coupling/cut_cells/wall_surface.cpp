@@ -11,6 +11,32 @@ namespace brisance::coupling {
 
 namespace {
 
+/// Per element the lowest element of the closed surface it belongs to: elements that share vertices, however far.
+std::vector<GlobalId> closed_surfaces(solid::Surface const& surface, int dimension) {
+  auto const elements = surface.elements();
+  std::vector<GlobalId> lowest(static_cast<std::size_t>(surface.vertices()), -1), parent(elements.size());
+  auto const root = [&](GlobalId e) {
+    while (parent[static_cast<std::size_t>(e)] != e) {
+      auto& up = parent[static_cast<std::size_t>(e)];
+      e = up = parent[static_cast<std::size_t>(up)];
+    }
+    return e;
+  };
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    parent[e] = static_cast<GlobalId>(e);
+    for (int a = 0; a < dimension; ++a) {
+      GlobalId& at = lowest[static_cast<std::size_t>(elements[e].vertex[static_cast<std::size_t>(a)])];
+      GlobalId const mine = root(static_cast<GlobalId>(e)), other = at < 0 ? mine : root(at);
+      parent[static_cast<std::size_t>(std::max(mine, other))] = std::min(mine, other);
+      at = std::min(mine, other);
+    }
+  }
+  std::vector<GlobalId> out(elements.size());
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    out[e] = elements[static_cast<std::size_t>(root(static_cast<GlobalId>(e)))].id;
+  return out;
+}
+
 /// A triangle lies in one of the three beams of a box when it overlaps the box in all directions but at most one.
 bool in_beam(int dimension, CellBox const& box, CellBox const& triangle) {
   int apart = 0;
@@ -54,10 +80,11 @@ void WallSurface::replace(std::shared_ptr<solid::Surface const> surface) {
   vertices_.clear(), member_.clear(), triangles_.clear();
   sent_.clear();
   std::vector<GlobalId> needed;
+  std::vector<GlobalId> const surfaces = closed_surfaces(*surface_, flow_.grid().dimension);
   for (std::size_t t = 0; t < surface_->elements().size(); ++t) {
     solid::Element const& triangle = surface_->elements()[t];
     if (solid_.owner(triangle.particle) != comm_.rank()) continue;
-    triangles_.push_back(t);
+    triangles_.push_back({t, surfaces[t], {}});
     for (int a = 0; a < flow_.grid().dimension; ++a) needed.push_back(triangle.vertex[static_cast<std::size_t>(a)]);
   }
   for (Index v = 0; v < surface_->vertices(); ++v)
@@ -66,13 +93,16 @@ void WallSurface::replace(std::shared_ptr<solid::Surface const> surface) {
   std::sort(needed.begin(), needed.end());
   needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
   for (GlobalId const id : needed) {
-    Vertex vertex{id, {}, {}, {}, {}, static_cast<Index>(member_.size()), 0};
+    Vertex vertex{id, {}, {}, {}, {}, {}, static_cast<Index>(member_.size()), 0};
     for (solid::Corner const& c : surface_->corners(static_cast<Index>(id)))
       member_.push_back(solid_.local(c.particle));
     vertex.last_member = static_cast<Index>(member_.size());
     vertices_.push_back(vertex);
   }
   arm_.assign(member_.size(), Vec3{});
+  for (Triangle& t : triangles_)
+    for (std::size_t a = 0; a < static_cast<std::size_t>(flow_.grid().dimension); ++a)
+      t.vertex[a] = static_cast<std::size_t>(local(surface_->elements()[t.element].vertex[a]));
 }
 
 void WallSurface::open(std::shared_ptr<solid::Surface const> opened) {
@@ -156,6 +186,18 @@ bool WallSurface::moved() const {
   return std::any_of(vertices_.begin(), vertices_.end(), [](Vertex const& v) { return !(v.record == v.position); });
 }
 
+bool WallSurface::news() const {
+  return std::any_of(vertices_.begin(), vertices_.end(), [](Vertex const& v) {
+    return !same_bits(v.record, v.position) || !same_bits(v.velocity, v.told);
+  });
+}
+
+void WallSurface::repeat_triangles(std::vector<SurfaceTriangle> const& record,
+                                   std::vector<SurfaceTriangle>& received) const {
+  received = record;
+  for (SurfaceTriangle& t : received) t.x_old = t.x_new;
+}
+
 std::optional<Vec3> WallSurface::beyond(Vec3 const& bound) const {
   for (Vertex const& v : vertices_)
     for (int d = 0; d < flow_.grid().dimension; ++d)
@@ -191,14 +233,16 @@ void WallSurface::send_triangles(std::vector<SurfaceTriangle>& received) {
   triangles.reserve(triangles_.size());
   std::map<int, std::vector<std::size_t>> targets;
   for (std::size_t place = 0; place < triangles_.size(); ++place) {
-    solid::Element const& t = surface_->elements()[triangles_[place]];
+    Triangle const& mine = triangles_[place];
+    solid::Element const& t = surface_->elements()[mine.element];
     SurfaceTriangle triangle;
     triangle.id = t.id;
+    triangle.surface = mine.surface;
     for (std::size_t a = 0; a < corners; ++a) triangle.vertex[a] = t.vertex[a];
     constexpr Index far = std::numeric_limits<Index>::max() / 2;
     CellBox box{{far, far, far}, {-far, -far, -far}};
     for (std::size_t a = 0; a < corners; ++a) {
-      Vertex const& v = vertices_[static_cast<std::size_t>(local(t.vertex[a]))];
+      Vertex const& v = vertices_[mine.vertex[a]];
       triangle.x_old[a] = v.record;
       triangle.x_new[a] = v.position;
       triangle.velocity[a] = v.velocity;
@@ -215,6 +259,7 @@ void WallSurface::send_triangles(std::vector<SurfaceTriangle>& received) {
       if (in_beam(grid.dimension, r.box, box)) targets[r.rank].push_back(place);
     triangles.push_back(triangle);
   }
+  for (Vertex& v : vertices_) v.told = v.velocity;
   sent_.assign(targets.begin(), targets.end());
   std::vector<parallel::Message> out;
   for (auto const& [rank, places] : sent_) {
@@ -230,7 +275,7 @@ void WallSurface::send_triangles(std::vector<SurfaceTriangle>& received) {
   std::sort(received.begin(), received.end(), [](auto const& a, auto const& b) { return a.id < b.id; });
 }
 
-void WallSurface::send_velocities(std::vector<SurfaceTriangle>& received) {
+bool WallSurface::send_velocities(std::vector<SurfaceTriangle>& received) {
   struct Record {
     GlobalId triangle;
     std::array<Vec3, 3> velocity;
@@ -240,21 +285,28 @@ void WallSurface::send_velocities(std::vector<SurfaceTriangle>& received) {
   for (auto const& [rank, places] : sent_) {
     parallel::Message message{rank, {}};
     for (std::size_t const place : places) {
-      solid::Element const& t = surface_->elements()[triangles_[place]];
-      Record record{t.id, {}};
-      for (std::size_t a = 0; a < corners; ++a)
-        record.velocity[a] = vertices_[static_cast<std::size_t>(local(t.vertex[a]))].velocity;
-      parallel::put(message.data, record);
+      Triangle const& t = triangles_[place];
+      Record record{surface_->elements()[t.element].id, {}};
+      bool news = false;
+      for (std::size_t a = 0; a < corners; ++a) {
+        Vertex const& v = vertices_[t.vertex[a]];
+        record.velocity[a] = v.velocity;
+        news = news || !same_bits(v.velocity, v.told);
+      }
+      if (news) parallel::put(message.data, record);
     }
-    out.push_back(std::move(message));
+    if (!message.data.empty()) out.push_back(std::move(message));
   }
+  for (Vertex& v : vertices_) v.told = v.velocity;
+  bool any = false;
   for (parallel::Message const& message : comm_.deliver(std::move(out)))
-    for (std::span<std::byte const> in(message.data); !in.empty();) {
+    for (std::span<std::byte const> in(message.data); !in.empty(); any = true) {
       Record const record = parallel::take<Record>(in);
       std::lower_bound(received.begin(), received.end(), record.triangle, [](SurfaceTriangle const& t, GlobalId id) {
         return t.id < id;
       })->velocity = record.velocity;
     }
+  return any;
 }
 
 void WallSurface::apply(std::vector<CellForce> const& forces) {

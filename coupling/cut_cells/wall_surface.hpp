@@ -53,13 +53,16 @@ class WallSurface {
 
   /// Collective. All triangles within reach of this rank's blocks, sorted by id.
   void send_triangles(std::vector<SurfaceTriangle>& received);
-  /// Collective. The present vertex velocities, into the same triangles.
-  void send_velocities(std::vector<SurfaceTriangle>& received);
+  /// The triangles of the record where nothing is new: as send_triangles would, without messages.
+  void repeat_triangles(std::vector<SurfaceTriangle> const& record, std::vector<SurfaceTriangle>& received) const;
+  /// Collective. The present vertex velocities, where they changed, into the same triangles; true if any came here.
+  bool send_velocities(std::vector<SurfaceTriangle>& received);
   /// Collective. Conjugate load: `forces` of this rank's cells become forces and torques of particles.
   void apply(std::vector<CellForce> const& forces);
 
   Real fastest_vertex(int direction) const;  ///< m/s, over local vertices
   bool moved() const;                        ///< any vertex whose predicted position differs from the record
+  bool news() const;                         ///< any vertex that moved, or whose velocity is not the one last sent
   /// Record position of a local vertex whose prediction is farther than `bound` from it, or not a number.
   std::optional<Vec3> beyond(Vec3 const& bound) const;
   /// Predicted position of a local vertex that is closer to a periodic side of the domain than a sweep looks.
@@ -80,7 +83,8 @@ class WallSurface {
   struct Vertex {
     GlobalId id;
     Vec3 record, position, velocity;
-    Vec3 lag;  ///< from the mean of its particles, after a break that moved this far; taken back in steps
+    Vec3 told;  ///< the velocity that was last sent
+    Vec3 lag;   ///< from the mean of its particles, after a break that moved this far; taken back in steps
     Index first_member, last_member;
   };
   /// The part of a lag that is left after a step: a tenth of a cell at a time.
@@ -99,7 +103,13 @@ class WallSurface {
   std::vector<Vertex> vertices_, saved_;  ///< sorted by id
   std::vector<Index> member_;             ///< local particles of the vertices
   std::vector<Vec3> arm_;                 ///< beside member_
-  std::vector<std::size_t> triangles_;    ///< elements of the surface that belong to owned particles
+  /// An element of the surface that belongs to an owned particle, with the places of its vertices in vertices_.
+  struct Triangle {
+    std::size_t element;
+    GlobalId surface;
+    std::array<std::size_t, 3> vertex;
+  };
+  std::vector<Triangle> triangles_;
   struct Reach {
     int rank;
     CellBox box;

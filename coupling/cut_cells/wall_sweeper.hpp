@@ -14,7 +14,8 @@ namespace brisance::coupling {
 
 /// A cell that enters a sweep with a reflected state.
 struct MirrorCell {
-  Index slot = -1;      ///< image cell in the gather, -1: none
+  Index place = -1;     ///< image cell in WallBlock::images, -1: none
+  Index slot = -1;      ///< the same in the gather of all blocks
   Vec3 offset;          ///< of the image from the centre of that cell, m
   Vec3 normal;          ///< unit
   Real wall_speed = 0;  ///< normal velocity of the wall, m/s
@@ -53,6 +54,7 @@ struct WallBlock {
   std::array<std::vector<Run>, 3> runs;  ///< longest first
   std::array<std::vector<RunEnd>, 3> ends;
   std::vector<std::pair<CellIndex, MirrorCell>> solid;  ///< local cells with their general mirror states
+  std::vector<GlobalId> images;                         ///< of all mirror cells of the block
 };
 
 class WallSweeper : public fluid::BlockSweeper {
@@ -61,6 +63,9 @@ class WallSweeper : public fluid::BlockSweeper {
 
   /// Collective. New runs, mirrors and images for the geometry of `record`; then the general mirror states are set.
   void rebuild(WallRecord const& record);
+  /// Collective. The same for a record that differs from the last one in `changed` only: blocks out of reach of it keep
+  /// their runs and closest points.
+  void update(WallRecord const& record, std::span<CellBox const> changed);
   /// Collective. The record moved elsewhere in memory but is the same: mirror states of the present fields.
   void keep(WallRecord const& record);
   /// Collective. Puts a mirrored state into every solid cell near the walls; `mirrored`: image -> state.
@@ -85,8 +90,10 @@ class WallSweeper : public fluid::BlockSweeper {
   std::size_t bytes() const;
 
  private:
-  void find_runs(fluid::Block const& block, WallBlock& wall, int direction, std::vector<GlobalId>& wanted);
-  void find_solid(fluid::Block const& block, WallBlock& wall, std::vector<GlobalId>& wanted);
+  void renew(fluid::Block const& block);
+  void gather_images();
+  void find_runs(fluid::Block const& block, WallBlock& wall, int direction);
+  void find_solid(fluid::Block const& block, WallBlock& wall);
   MirrorCell mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted) const;
   void refresh_mirrors();
   fluid::State image(MirrorCell const& mirror) const;

@@ -93,13 +93,14 @@ void sum_rows(std::size_t d, std::span<CellBox const> keep, Geometry& g) {
       open = running;
       bool const last = end + 1 == g.rows.size() || g.rows[end + 1].key >> 20 != g.rows[i].key >> 20;
       if (last || g.rows[end + 1].key != g.rows[end].key + 1) {
-        Real const level = last ? 1 : std::min(std::nearbyint(running), 1.0);  // 0 in one body, -1 in two at once
+        Real const level = last ? 1 : std::nearbyint(running);  // 0 in one body, -1 in two at once, 2 inside out
         if (std::abs(running - level) > defect) {
           defect = std::abs(running - level);
           where = cell.cell;
         }
         running = level;
         open = level > 0 ? 1 : 0;
+        if (level > 1 && cell.kept) ++g.inverted;
         if (d == 0 && !last && level <= 0) {
           CellIndex first = cell.cell;
           first[0] += 1;
@@ -162,7 +163,7 @@ void build(Lattice const& lattice, std::span<SurfaceTriangle const> triangles, s
   out.cells.clear();
   out.solid.clear();
   out.residual = out.volume_mismatch = 0;
-  out.overlapped = 0;
+  out.overlapped = out.inverted = 0;
   detail::clip(lattice, triangles, out);
   sum_cells(keep, out);
   for (std::size_t d = 0; d < static_cast<std::size_t>(lattice.dimension); ++d) sum_rows(d, keep, out);
@@ -177,14 +178,13 @@ Index Geometry::find(CellIndex const& c) const {
 }
 
 void require_closed(Lattice const& lattice, Geometry const& geometry) {
-  if (geometry.residual <= 1e-10) return;
+  if (geometry.residual <= tightness) return;
   auto const& c = geometry.residual_cell;
   Vec3 const x = lattice.position({c[0] + 0.5, c[1] + 0.5, lattice.dimension == 3 ? c[2] + 0.5 : 0.0});
   char text[240];
   std::snprintf(
       text, sizeof text,
-      "the boundary is not watertight, or a body is inside out: along %c through (%.6g, %.6g, %.6g) m the area "
-      "vectors leave %.3g of a face",
+      "the boundary is not watertight: along %c through (%.6g, %.6g, %.6g) m the area vectors leave %.3g of a face",
       "xyz"[geometry.residual_direction], x.x, x.y, x.z, geometry.residual);
   throw Error(Failure::numerical, text);
 }

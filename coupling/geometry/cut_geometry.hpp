@@ -52,6 +52,7 @@ struct Geometry {
   int residual_direction = 0;
   Real volume_mismatch = 0;  ///< largest difference of the x, y and z volumes [cell volumes]
   Index overlapped = 0;      ///< rows of solid cells inside two bodies at once (counted as solid)
+  Index inverted = 0;        ///< rows of cells inside a surface that is inside out or folded through itself (fluid)
 
   std::span<Corner const> corners_of(Piece const& p) const {
     return {corners.data() + p.first_corner, static_cast<std::size_t>(p.corners)};
@@ -92,8 +93,9 @@ struct Geometry {
 void build(Lattice const& lattice, std::span<SurfaceTriangle const> triangles, std::span<CellBox const> keep,
            Geometry& out);
 
-/// Errors: numerical error that names the place when the residual of closure is above 1e-10 of a face, i.e. when the
-/// boundary is not watertight or a body is inside out.
+constexpr Real tightness = 1e-10;  ///< residual of closure, in faces, above which a boundary has a hole
+
+/// Errors: numerical error that names the place when the boundary is not watertight.
 void require_closed(Lattice const& lattice, Geometry const& geometry);
 
 }  // namespace brisance::coupling

@@ -1,6 +1,8 @@
 // What the cut-cell geometry takes in: the lattice of grid planes and the moving triangles of the bodies.
 #pragma once
 #include <array>
+#include <bit>
+#include <cstdint>
 
 #include "core/base/real.hpp"
 #include "core/base/vec3.hpp"
@@ -31,6 +33,7 @@ struct Lattice {
 /// Units: m, m/s.
 struct SurfaceTriangle {
   GlobalId id = 0;
+  GlobalId surface = 0;  ///< the closed surface it belongs to, by its lowest triangle
   std::array<GlobalId, 3> vertex{};
   std::array<Vec3, 3> x_old{}, x_new{}, velocity{};
 
@@ -40,6 +43,15 @@ struct SurfaceTriangle {
     return false;
   }
 };
+
+/// Equal to the sign of zero: what shortcuts must ask before they leave something as it is.
+inline bool same_bits(Vec3 const& a, Vec3 const& b) {
+  using Bits = std::array<std::uint64_t, 3>;
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
+inline bool same_bits(std::array<Vec3, 3> const& a, std::array<Vec3, 3> const& b) {
+  return same_bits(a[0], b[0]) && same_bits(a[1], b[1]) && same_bits(a[2], b[2]);
+}
 
 /// Cells low <= c < high.
 struct CellBox {
