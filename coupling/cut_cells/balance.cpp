@@ -27,21 +27,29 @@ void CutCells::transfers() {
   std::vector<CellBox> near;
   for (Block const& block : std::as_const(flow_).blocks()) near.push_back(grown(grid, box_of(block), 1));
   std::vector<GlobalId> wanted;
+  // Beyond an open side the gas goes on as it is inside; beyond a reflecting one there is none.
+  auto const open = [&](CellIndex c) {
+    for (int d = 0; d < grid.dimension; ++d) {
+      auto const dir = static_cast<std::size_t>(d);
+      if (c[dir] < 0 && (grid.periodic[dir] || flow_.reflecting(d, 0))) return false;
+      if (c[dir] >= grid.cells[dir] && (grid.periodic[dir] || flow_.reflecting(d, 1))) return false;
+    }
+    return true;
+  };
+  auto const id_of = [&](CellIndex c) { return grid.inside(c) ? grid.cell_id(c) : GlobalId{-1}; };
   for (CutCell const& cut : next_.geometry.cells) {
-    if (!grid.inside(cut.cell)) continue;
     bool const here = owned(cut.cell);
     if (!here && std::none_of(near.begin(), near.end(), [&](CellBox const& b) { return b.holds(cut.cell); })) continue;
-    GlobalId const to = grid.cell_id(cut.cell);
     for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
       Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
       swept_.clear();
       swept(next_.lattice(), next_.geometry, piece, next_.triangles[static_cast<std::size_t>(piece.triangle)], swept_);
       for (Swept const& s : swept_) {
-        // Both cells inside, or the exchange is dropped for both.
-        if (s.cell == cut.cell || !grid.inside(s.cell) || s.volume == 0) continue;
+        if (s.cell == cut.cell || s.volume == 0) continue;
         if (!here && !owned(s.cell)) continue;
-        transfers_.push_back({to, grid.cell_id(s.cell), s.volume});
-        wanted.push_back(transfers_.back().from);
+        if (!open(s.cell) || !open(cut.cell)) continue;
+        transfers_.push_back({id_of(cut.cell), id_of(s.cell), grid.cell_id(into_domain(grid, s.cell)), s.volume});
+        wanted.push_back(transfers_.back().state);
       }
     }
   }
@@ -83,7 +91,7 @@ void CutCells::update_contents(Real dt) {
   for (Content const& k : kept_) band.push_back(k.cell);
   for (Transfer const& t : transfers_)
     for (GlobalId const id : {t.to, t.from})
-      if (owned(cell_from_id(grid, id))) band.push_back(id);
+      if (id >= 0 && owned(cell_from_id(grid, id))) band.push_back(id);
   std::sort(band.begin(), band.end());
   band.erase(std::unique(band.begin(), band.end()), band.end());
   contents_.clear();
@@ -96,9 +104,11 @@ void CutCells::update_contents(Real dt) {
 
   // In the order of pieces, which is that of cells and triangles on every rank.
   for (Transfer const& t : transfers_) {
-    State const& u = swept_states_[swept_states_.slot(t.from)];
+    State const& u = swept_states_[swept_states_.slot(t.state)];
     if (State* to = content(t.to)) add(*to, t.volume, u);
     if (State* from = content(t.from)) add(*from, -t.volume, u);
+    if (t.to < 0 || t.from < 0)
+      for (std::size_t q = 0; q < 5; ++q) crossed_[q].add((t.to < 0 ? -t.volume : t.volume) * u[q]);
   }
 
   for (Content& c : contents_) {

@@ -135,7 +135,8 @@ class CutCells : public Effect {
   std::function<void(std::string)> remark_;
   std::vector<Swept> swept_;
   struct Transfer {
-    GlobalId to, from;
+    GlobalId to, from;  ///< -1: beyond an open side of the domain
+    GlobalId state;     ///< the cell whose gas it is
     Real volume;
   };
   std::vector<Transfer> transfers_;
