@@ -28,11 +28,19 @@ void CutCells::transfers() {
   for (Block const& block : std::as_const(flow_).blocks()) near.push_back(grown(grid, box_of(block), 1));
   std::vector<GlobalId> wanted;
   auto watch = std::make_optional<Stopwatch>(cost_.geometry_s);
+  // Beyond an open side the gas goes on as it is inside; beyond a reflecting one there is none.
+  auto const open = [&](CellIndex c) {
+    for (int d = 0; d < grid.dimension; ++d) {
+      auto const dir = static_cast<std::size_t>(d);
+      if (c[dir] < 0 && (grid.periodic[dir] || flow_.reflecting(d, 0))) return false;
+      if (c[dir] >= grid.cells[dir] && (grid.periodic[dir] || flow_.reflecting(d, 1))) return false;
+    }
+    return true;
+  };
+  auto const id_of = [&](CellIndex c) { return grid.inside(c) ? grid.cell_id(c) : GlobalId{-1}; };
   for (CutCell const& cut : next_.geometry.cells) {
-    if (!grid.inside(cut.cell)) continue;
     bool const here = owned(cut.cell);
     if (!here && std::none_of(near.begin(), near.end(), [&](CellBox const& b) { return b.holds(cut.cell); })) continue;
-    GlobalId const to = grid.cell_id(cut.cell);
     bool moving = false;
     for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
       Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
@@ -46,14 +54,16 @@ void CutCells::transfers() {
       Vec3 const middle = 0.5 * (before + piece.centroid);
       Vec3 const velocity = next_.wall_velocity(piece.triangle, piece.bary_centroid);
       for (Swept const& s : swept_) {
-        // Both cells inside, or the exchange is dropped for both.
-        if (s.cell == cut.cell || !grid.inside(s.cell) || s.volume == 0) continue;
+        if (s.cell == cut.cell || s.volume == 0) continue;
         if (!here && !owned(s.cell)) continue;
-        Vec3 place = middle - grid.centre(s.cell);
+        if (!open(s.cell) || !open(cut.cell)) continue;
+        CellIndex const inside = into_domain(grid, s.cell);
+        Vec3 place = middle - grid.centre(inside);
         for (int d = 0; d < 3; ++d)
           place[d] = d < grid.dimension ? clamp(place[d], -0.5 * grid.spacing[d], 0.5 * grid.spacing[d]) : 0;
-        transfers_.push_back({to, grid.cell_id(s.cell), s.volume, place, piece.area, velocity});
-        wanted.push_back(transfers_.back().from);
+        transfers_.push_back(
+            {id_of(cut.cell), id_of(s.cell), grid.cell_id(inside), s.volume, place, piece.area, velocity});
+        wanted.push_back(transfers_.back().state);
       }
     }
     cost_.moving += moving && here;
@@ -97,7 +107,7 @@ void CutCells::update_contents(Real dt) {
   for (Content const& k : kept_) band.push_back(k.cell);
   for (Transfer const& t : transfers_)
     for (GlobalId const id : {t.to, t.from})
-      if (owned(cell_from_id(grid, id))) band.push_back(id);
+      if (id >= 0 && owned(cell_from_id(grid, id))) band.push_back(id);
   std::sort(band.begin(), band.end());
   band.erase(std::unique(band.begin(), band.end()), band.end());
   contents_.clear();
@@ -110,14 +120,16 @@ void CutCells::update_contents(Real dt) {
 
   // In the order of pieces, which is that of cells and triangles on every rank.
   for (Transfer const& t : transfers_) {
-    State u = swept_states_[swept_states_.slot(t.from)];
+    State u = swept_states_[swept_states_.slot(t.state)];
     if (linear_ && u[0] > 0) {
       // Gas that slides along the wall: the fluxes pass what stands half a step upstream.
       Vec3 const slip = beside(t.area, Vec3{u[1], u[2], u[3]} / u[0] - t.wall_velocity);
-      u = sweeper_.profiles().value(t.from, u, t.place - 0.5 * dt * slip);
+      u = sweeper_.profiles().value(t.state, u, t.place - 0.5 * dt * slip);
     }
     if (State* to = content(t.to)) add(*to, t.volume, u);
     if (State* from = content(t.from)) add(*from, -t.volume, u);
+    if (t.to < 0 || t.from < 0)
+      for (std::size_t q = 0; q < 5; ++q) crossed_[q].add((t.to < 0 ? -t.volume : t.volume) * u[q]);
   }
 
   for (Content& c : contents_) {

@@ -145,9 +145,10 @@ class CutCells : public Effect {
   std::function<void(std::string)> remark_;
   std::vector<Swept> swept_;
   struct Transfer {
-    GlobalId to, from;
+    GlobalId to, from;  ///< -1: beyond an open side of the domain
+    GlobalId state;     ///< the cell whose gas it is
     Real volume;
-    Vec3 place;  ///< about where it comes from, m from the centre of `from`
+    Vec3 place;  ///< about where it comes from, m from the centre of `state`
     Vec3 area, wall_velocity;
   };
   std::vector<Transfer> transfers_;
