@@ -158,16 +158,12 @@ brisance_expect(scene_unknown_scheme CODE 2 LABELS unit ABSENT ${runs}/no-scheme
 brisance_expect(check_light_solid CODE 0 LABELS unit
                 MESSAGE "light solid: particle [0-9]+ of body .tube. .*Steps are limited to this share"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set "solid.material.steel.density=0.1")
-brisance_expect(scene_contact_in_a_gas CODE 2 LABELS unit ABSENT ${runs}/contact-gas
-                MESSAGE "solid.contact and coupling.cut_cells do not go together yet.*Leave contact out"
-                COMMAND ${program} run ${scenes}/explosion-cylinder.toml --out ${runs}/contact-gas --set solid.contact.friction=0.3)
-
 brisance_expect(check_sleep CODE 0 LABELS unit MESSAGE "fluid.sleep +off: all blocks are swept"
                 COMMAND ${program} check ${scenes}/explosion-cylinder.toml --set fluid.sleep=false)
 
 brisance_expect(scene_consistent_breaks CODE 2 LABELS unit ABSENT ${runs}/consistent-breaks
-                MESSAGE "ductile.toml:[0-9]+:[0-9]+: .*volumetric = .consistent. needs links that stay whole"
-                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/ductile.toml --out ${runs}/consistent-breaks
+                MESSAGE "break-up.toml:[0-9]+:[0-9]+: .*volumetric = .consistent. needs links that stay whole"
+                COMMAND ${program} run ${PROJECT_SOURCE_DIR}/tests/support/scenes/break-up.toml --out ${runs}/consistent-breaks
                         --set "solid.links.volumetric=\"consistent\"")
 
 # Truncated checkpoints and a full disk.

@@ -253,8 +253,8 @@ void Simulation::read(parallel::ArchiveReader& file) {
   clock_.step = file.integer("step");
   retry_factor_ = file.real("retry_factor");
   outputs_done_ = file.integer("outputs_done");
-  statistics_ = {file.real("dt_min"),        file.real("dt_max"), {}, file.integer("retries"),
-                 file.integer("solid_steps"), {}};
+  statistics_ = {file.real("dt_min"),     file.real("dt_max"),         {},
+                 file.integer("retries"), file.integer("solid_steps"), {}};
   std::string const limits = file.text("limited_by");
   for (std::size_t at = 0; at < limits.size();) {
     std::size_t const equal = limits.find('=', at), stop = limits.find(';', equal);

@@ -16,7 +16,8 @@ struct TimeControl {
   int steps_per_pair = 2;    ///< 1 in 1D and without a fluid
   Real output_interval = 0;  ///< s; steps are shortened to hit its multiples; 0: none
   TimeCoupling coupling = TimeCoupling::lag;
-  /// Solid steps in a step of the whole: at most so many, as its limits ask; with `least` equal to `most` always so many.
+  /// Solid steps in a step of the whole: at most so many, as its limits ask; with `least` equal to `most` always so
+  /// many.
   int least_sub_steps = 1, most_sub_steps = 1;
 };
 
@@ -72,7 +73,7 @@ class Simulation {
   StepStatistics statistics_;
   Real retry_factor_ = 1;
   Real solid_limit_ = std::numeric_limits<Real>::max();  ///< s, of its sub-steps, at the start of the pair
-  std::int64_t outputs_done_ = 0;  ///< multiples of the output interval already reached
+  std::int64_t outputs_done_ = 0;                        ///< multiples of the output interval already reached
   bool at_output_ = false;
   std::string limited_by_;
 };
