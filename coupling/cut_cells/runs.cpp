@@ -36,6 +36,26 @@ MirrorCell WallSweeper::mirror(CellIndex c, int direction, int side, std::vector
   return {static_cast<Index>(wanted.size()) - 1, -1, offset, p.normal, dot(p.velocity, p.normal), p.velocity};
 }
 
+bool WallSweeper::two_sides(CellIndex low, int direction) const {
+  fluid::Grid const& grid = flow_.grid();
+  auto const d = static_cast<std::size_t>(direction);
+  CellIndex high = low;
+  ++high[d];
+  if (low[d] < 0 || high[d] >= grid.cells[d] || record_->cut_index(low) < 0) return false;
+  auto const open = [&](CellIndex c, int along, int side) {
+    return record_->aperture(c, along, side) > covered_fraction * record_->lattice().face_area(along);
+  };
+  if (open(low, direction, 1)) return false;
+  // Around the edge of the face, as over a crest of the wall, it is the same fluid.
+  for (int e = 0; e < grid.dimension; ++e)
+    for (int side = 0; e != direction && side < 2; ++side) {
+      CellIndex beside = low;
+      beside[static_cast<std::size_t>(e)] += side == 0 ? -1 : 1;
+      if (open(low, e, side) && open(high, e, side) && open(beside, direction, 1)) return false;
+    }
+  return true;
+}
+
 void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction) {
   auto const d = static_cast<std::size_t>(direction);
   std::size_t const t0 = d == 0 ? 1 : 0, t1 = d == 2 ? 1 : 2;
@@ -43,6 +63,7 @@ void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction) 
   auto& ends = wall.ends[d];
   runs.clear();
   ends.clear();
+  wall.parted[d].clear();
   Index const n = block.size()[d], ghost = block.ghost()[d];
   fluid::Grid const& grid = flow_.grid();
   auto const wall_end = [&](CellIndex last, int outwards) {
@@ -72,13 +93,20 @@ void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction) 
         if (g[d] < 0 || g[d] >= grid.cells[d]) g = into_domain(grid, g);
         return record_->solid(g);
       };
+      auto const parted = [&](Index i) { return two_sides(global(i), direction); };
       Index i = -ghost;
       while (i < n + ghost) {
         while (i < n + ghost && is_solid(i)) ++i;
         if (i == n + ghost) break;
         WallBlock::Run run{i, i, {a, b}};
-        while (i < n + ghost && !is_solid(i)) ++i;
+        do ++i;
+        while (i < n + ghost && !is_solid(i) && !parted(i - 1));
         run.end = i;
+        if (i < n + ghost && i >= 0 && i <= n && !is_solid(i)) {
+          CellIndex face{};
+          face[d] = i, face[t0] = a, face[t1] = b;
+          wall.parted[d].push_back(face);
+        }
         if (run.end < 0 || run.begin > n) continue;
         if (run.begin > -ghost) run.low = wall_end(global(run.begin), -1);
         if (run.end < n + ghost) run.high = wall_end(global(run.end - 1), +1);

@@ -53,6 +53,7 @@ struct WallBlock {
   };
   std::array<std::vector<Run>, 3> runs;  ///< longest first
   std::array<std::vector<RunEnd>, 3> ends;
+  std::array<std::vector<CellIndex>, 3> parted;         ///< local cells above closed faces between two fluid cells
   std::vector<std::pair<CellIndex, MirrorCell>> solid;  ///< local cells with their general mirror states
   std::vector<GlobalId> images;                         ///< of all mirror cells of the block
 };
@@ -92,6 +93,8 @@ class WallSweeper : public fluid::BlockSweeper {
  private:
   void renew(fluid::Block const& block);
   void gather_images();
+  /// Fluid cells that the closed face above `low` parts: the wall between them is thinner than two cells.
+  bool two_sides(CellIndex low, int direction) const;
   void find_runs(fluid::Block const& block, WallBlock& wall, int direction);
   void find_solid(fluid::Block const& block, WallBlock& wall);
   MirrorCell mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted) const;
