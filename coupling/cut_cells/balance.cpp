@@ -198,6 +198,9 @@ void CutCells::exchange_at_end(CutCell const& cut, Real dt, State& amount) {
     PieceFriction const friction = viscous_ ? (*viscous_)[static_cast<std::size_t>(f)] : PieceFriction{};
     if (viscous_) force += friction.force;
     take(force, friction.heat, next_.wall_velocity(piece.triangle, piece.bary_centroid), dt, amount);
+    Real const centring = dt * next_.triangles[static_cast<std::size_t>(piece.triangle)].centring * norm(piece.area);
+    amount[4] -= centring;
+    exchanged_energy_.add(std::abs(centring));
   }
 }
 

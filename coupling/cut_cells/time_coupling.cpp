@@ -34,7 +34,7 @@ bool CutCells::load_solid(Clock const& clock) {
   std::vector<CellForce> forces;
   if (viscous_) viscous_->find(record_, next_, moved_);
   wall_pressure(next_, false, forces);
-  surface_.apply(forces);
+  surface_.apply(forces, moved_);
   solid_.restore(solid_before_);
   if (scheme_ == TimeCoupling::lag) return false;
   // The pressures stay as they are, the boundary follows the loads: a contraction by p dt^2 / (2 rho_s h_s^2).
@@ -63,7 +63,7 @@ void CutCells::load_at_start() {
   at_start_.begin(record_);
   wall_pressure(record_, false, forces);
   at_start_.exchange(record_, flow_, comm_);
-  surface_.apply(forces);
+  surface_.apply(forces, false);
 }
 
 void CutCells::end_drift(Clock const& clock) {

@@ -97,8 +97,9 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
       GlobalId const triangle = record.triangles[static_cast<std::size_t>(piece.triangle)].id;
       GlobalId const cell = grid.cell_id(cut.cell);
       if (forces.empty() || forces.back().triangle != triangle || forces.back().cell != cell)
-        forces.push_back({triangle, cell, {}});
+        forces.push_back({triangle, cell, {}, 0});
       for (std::size_t a = 0; a < 3; ++a) forces.back().force[a] += piece.bary_centroid[a] * force;
+      forces.back().area += norm(piece.area);
     }
   }
 }

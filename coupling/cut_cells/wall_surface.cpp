@@ -84,7 +84,9 @@ void WallSurface::replace(std::shared_ptr<solid::Surface const> surface) {
   for (std::size_t t = 0; t < surface_->elements().size(); ++t) {
     solid::Element const& triangle = surface_->elements()[t];
     if (solid_.owner(triangle.particle) != comm_.rank()) continue;
-    triangles_.push_back({t, surfaces[t], {}});
+    triangles_.emplace_back();
+    triangles_.back().element = t;
+    triangles_.back().surface = surfaces[t];
     for (int a = 0; a < flow_.grid().dimension; ++a) needed.push_back(triangle.vertex[static_cast<std::size_t>(a)]);
   }
   for (Index v = 0; v < surface_->vertices(); ++v)
@@ -92,14 +94,21 @@ void WallSurface::replace(std::shared_ptr<solid::Surface const> surface) {
       if (solid_.owner(c.particle) == comm_.rank()) needed.push_back(v);
   std::sort(needed.begin(), needed.end());
   needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+  std::vector<Index> around(static_cast<std::size_t>(surface_->vertices()));
+  for (solid::Element const& e : surface_->elements())
+    for (int a = 0; a < flow_.grid().dimension; ++a)
+      ++around[static_cast<std::size_t>(e.vertex[static_cast<std::size_t>(a)])];
   for (GlobalId const id : needed) {
-    Vertex vertex{id, {}, {}, {}, {}, {}, static_cast<Index>(member_.size()), 0};
+    Vertex vertex;
+    vertex.id = id;
+    vertex.triangles = around[static_cast<std::size_t>(id)];
+    vertex.first_member = static_cast<Index>(member_.size());
     for (solid::Corner const& c : surface_->corners(static_cast<Index>(id)))
       member_.push_back(solid_.local(c.particle));
     vertex.last_member = static_cast<Index>(member_.size());
     vertices_.push_back(vertex);
   }
-  arm_.assign(member_.size(), Vec3{});
+  for (std::vector<Vec3>* arm : {&arm_, &arm_before_, &arm_middle_}) arm->assign(member_.size(), Vec3{});
   for (Triangle& t : triangles_)
     for (std::size_t a = 0; a < static_cast<std::size_t>(flow_.grid().dimension); ++a)
       t.vertex[a] = static_cast<std::size_t>(local(surface_->elements()[t.element].vertex[a]));
@@ -128,7 +137,7 @@ void WallSurface::open(std::shared_ptr<solid::Surface const> opened) {
     v.position = v.record;
     Vec3 const jump = v.record - surface_->position(vertex, solid_);
     if (shortened(jump) != Vec3{}) v.lag = jump;  // else it is swept at once
-    surface_->arms(vertex, solid_, arms(v));
+    surface_->arms(vertex, solid_, of(v, arm_));
   }
   take_velocities();
 }
@@ -148,7 +157,10 @@ void WallSurface::start() {
 }
 
 void WallSurface::begin_step() {
-  for (Vertex& v : vertices_) v.lag = shortened(v.lag);
+  for (Vertex& v : vertices_) {
+    v.lag = shortened(v.lag);
+    surface_->arms(static_cast<Index>(v.id), solid_, of(v, arm_before_));
+  }
 }
 
 void WallSurface::place() {
@@ -156,13 +168,17 @@ void WallSurface::place() {
 }
 
 void WallSurface::freeze_arms() {
-  for (Vertex& v : vertices_) surface_->arms(static_cast<Index>(v.id), solid_, arms(v));
+  for (Vertex& v : vertices_) surface_->arms(static_cast<Index>(v.id), solid_, of(v, arm_));
+  for (std::size_t m = 0; m < arm_.size(); ++m) arm_middle_[m] = 0.5 * (arm_before_[m] + arm_[m]);
 }
 
 void WallSurface::take_velocities(Real share, bool first) {
   for (Vertex& v : vertices_) {
-    Vec3 const part = share * surface_->velocity(static_cast<Index>(v.id), solid_, arms(v));
+    Vec3 const part = share * surface_->velocity(static_cast<Index>(v.id), solid_, of(v, arm_));
     v.velocity = first ? part : v.velocity + part;
+    if (!centred_) continue;
+    Vec3 const middle = share * surface_->velocity(static_cast<Index>(v.id), solid_, of(v, arm_middle_));
+    v.working = first ? middle : v.working + middle;
   }
 }
 
@@ -260,6 +276,7 @@ void WallSurface::send_triangles(std::vector<SurfaceTriangle>& received) {
     triangles.push_back(triangle);
   }
   for (Vertex& v : vertices_) v.told = v.velocity;
+  for (Triangle& t : triangles_) t.told = 0;
   sent_.assign(targets.begin(), targets.end());
   std::vector<parallel::Message> out;
   for (auto const& [rank, places] : sent_) {
@@ -279,6 +296,7 @@ bool WallSurface::send_velocities(std::vector<SurfaceTriangle>& received) {
   struct Record {
     GlobalId triangle;
     std::array<Vec3, 3> velocity;
+    Real centring;
   };
   auto const corners = static_cast<std::size_t>(flow_.grid().dimension);
   std::vector<parallel::Message> out;
@@ -286,8 +304,8 @@ bool WallSurface::send_velocities(std::vector<SurfaceTriangle>& received) {
     parallel::Message message{rank, {}};
     for (std::size_t const place : places) {
       Triangle const& t = triangles_[place];
-      Record record{surface_->elements()[t.element].id, {}};
-      bool news = false;
+      Record record{surface_->elements()[t.element].id, {}, centring(t)};
+      bool news = record.centring != t.told;
       for (std::size_t a = 0; a < corners; ++a) {
         Vertex const& v = vertices_[t.vertex[a]];
         record.velocity[a] = v.velocity;
@@ -298,78 +316,17 @@ bool WallSurface::send_velocities(std::vector<SurfaceTriangle>& received) {
     if (!message.data.empty()) out.push_back(std::move(message));
   }
   for (Vertex& v : vertices_) v.told = v.velocity;
+  for (Triangle& t : triangles_) t.told = centring(t);
   bool any = false;
   for (parallel::Message const& message : comm_.deliver(std::move(out)))
     for (std::span<std::byte const> in(message.data); !in.empty(); any = true) {
       Record const record = parallel::take<Record>(in);
-      std::lower_bound(received.begin(), received.end(), record.triangle, [](SurfaceTriangle const& t, GlobalId id) {
-        return t.id < id;
-      })->velocity = record.velocity;
+      auto const at = std::lower_bound(received.begin(), received.end(), record.triangle,
+                                       [](SurfaceTriangle const& t, GlobalId id) { return t.id < id; });
+      at->velocity = record.velocity;
+      at->centring = record.centring;
     }
   return any;
-}
-
-void WallSurface::apply(std::vector<CellForce> const& forces) {
-  auto const corners = static_cast<std::size_t>(flow_.grid().dimension);
-  // To the owners of the triangles, summed there in the order of cells.
-  std::map<int, parallel::Bytes> to_owner;
-  for (CellForce const& f : forces)
-    parallel::put(to_owner[solid_.owner(surface_->elements()[static_cast<std::size_t>(f.triangle)].particle)], f);
-  std::vector<parallel::Message> out;
-  for (auto& [rank, data] : to_owner) out.push_back({rank, std::move(data)});
-  std::vector<CellForce> mine;
-  for (parallel::Message const& message : comm_.deliver(std::move(out)))
-    for (std::span<std::byte const> in(message.data); !in.empty();) mine.push_back(parallel::take<CellForce>(in));
-  std::sort(mine.begin(), mine.end(), [](CellForce const& a, CellForce const& b) {
-    return a.triangle != b.triangle ? a.triangle < b.triangle : a.cell < b.cell;
-  });
-
-  // One force per triangle and corner, to every rank that owns a particle of the vertex.
-  struct CornerForce {
-    GlobalId vertex, triangle;
-    Vec3 force;
-  };
-  std::map<int, parallel::Bytes> to_members;
-  for (std::size_t f = 0; f < mine.size();) {
-    GlobalId const id = mine[f].triangle;
-    std::array<Vec3, 3> sum{};
-    for (; f < mine.size() && mine[f].triangle == id; ++f)
-      for (std::size_t a = 0; a < corners; ++a) sum[a] += mine[f].force[a];
-    solid::Element const& t = surface_->elements()[static_cast<std::size_t>(id)];
-    for (std::size_t a = 0; a < corners; ++a) {
-      std::vector<int> ranks;
-      for (solid::Corner const& m : surface_->corners(t.vertex[a])) {
-        int const rank = solid_.owner(m.particle);
-        if (std::find(ranks.begin(), ranks.end(), rank) == ranks.end()) ranks.push_back(rank);
-      }
-      for (int const rank : ranks) parallel::put(to_members[rank], CornerForce{t.vertex[a], id, sum[a]});
-    }
-  }
-  out.clear();
-  for (auto& [rank, data] : to_members) out.push_back({rank, std::move(data)});
-  std::vector<CornerForce> loads;
-  for (parallel::Message const& message : comm_.deliver(std::move(out)))
-    for (std::span<std::byte const> in(message.data); !in.empty();) loads.push_back(parallel::take<CornerForce>(in));
-  std::sort(loads.begin(), loads.end(), [](CornerForce const& a, CornerForce const& b) {
-    return a.vertex != b.vertex ? a.vertex < b.vertex : a.triangle < b.triangle;
-  });
-
-  std::span<solid::Wrench> const load = solid_.load();
-  std::fill(load.begin(), load.end(), solid::Wrench{});
-  for (std::size_t l = 0; l < loads.size();) {
-    GlobalId const id = loads[l].vertex;
-    Vec3 force;
-    for (; l < loads.size() && loads[l].vertex == id; ++l) force += loads[l].force;
-    Vertex const& v = vertices_[static_cast<std::size_t>(local(id))];
-    Vec3 const share = force / static_cast<Real>(v.last_member - v.first_member);
-    for (Index m = v.first_member; m < v.last_member; ++m) {
-      auto const at = static_cast<std::size_t>(m);
-      if (member_[at] >= solid_.owned()) continue;
-      solid::Wrench& w = load[static_cast<std::size_t>(member_[at])];
-      w.force += share;
-      w.torque += cross(arm_[at], share);
-    }
-  }
 }
 
 void WallSurface::write(parallel::ArchiveWriter& file) const {

@@ -1,6 +1,7 @@
 // The deformed boundary between the ranks that own the particles and the ranks whose blocks it cuts: triangles go out,
 // vertex forces come back, vertex velocities follow (theory/coupling.md 1.6, 8.2).
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -18,7 +19,13 @@ namespace brisance::coupling {
 struct CellForce {
   GlobalId triangle = 0, cell = 0;
   std::array<Vec3, 3> force{};
+  Real area = 0;  ///< of these pieces, m2
 };
+
+/// What the area vector of a triangle (2D: a segment times `depth`) gains from the middle of a step to its end, by the
+/// vertex that moves, m2. The parts of one vertex add up to nothing over the triangles around it.
+std::array<Vec3, 3> area_gained(int dimension, Real depth, std::array<Vec3, 3> const& before,
+                                std::array<Vec3, 3> const& after);
 
 class WallSurface {
  public:
@@ -36,11 +43,12 @@ class WallSurface {
 
   /// Vertices at the present positions of the particles become the record (start of a run).
   void start();
-  /// A new step: vertices that lag behind their particles come nearer to them.
+  /// A new step: vertices that lag behind their particles come nearer to them. Expects: poses of ghosts are current.
   void begin_step();
   /// Vertices at the present places of the particles. Expects: poses of ghosts are current.
   void place();
-  /// The arms of loads and velocities until the next call are those of the present poses.
+  /// Until the next call the arms of velocities are those of the present poses, those of centred loads the mean of
+  /// these and of the poses at begin_step.
   void freeze_arms();
   /// `share` of the vertex velocities of a half step under the frozen arms, added to those of earlier sub-steps or, as
   /// the first, instead of them. Expects: half-step velocities of ghosts are current.
@@ -57,8 +65,10 @@ class WallSurface {
   void repeat_triangles(std::vector<SurfaceTriangle> const& record, std::vector<SurfaceTriangle>& received) const;
   /// Collective. The present vertex velocities, where they changed, into the same triangles; true if any came here.
   bool send_velocities(std::vector<SurfaceTriangle>& received);
-  /// Collective. Conjugate load: `forces` of this rank's cells become forces and torques of particles.
-  void apply(std::vector<CellForce> const& forces);
+  /// Collective. Conjugate load: `forces` of this rank's cells, which are those on the areas at the end of the step,
+  /// become forces and torques of particles; if `centred`, as they are in the middle of the step. The total force stays
+  /// the same to round-off; the work differs by SurfaceTriangle::centring.
+  void apply(std::vector<CellForce> const& forces, bool centred);
 
   Real fastest_vertex(int direction) const;  ///< m/s, over local vertices
   bool moved() const;                        ///< any vertex whose predicted position differs from the record
@@ -81,17 +91,20 @@ class WallSurface {
 
  private:
   struct Vertex {
-    GlobalId id;
+    GlobalId id = 0;
     Vec3 record, position, velocity;
-    Vec3 told;  ///< the velocity that was last sent
-    Vec3 lag;   ///< from the mean of its particles, after a break that moved this far; taken back in steps
-    Index first_member, last_member;
+    Vec3 working;       ///< the velocity under the arms of centred loads
+    Vec3 told;          ///< the velocity that was last sent
+    Vec3 lag;           ///< from the mean of its particles, after a break that moved this far; taken back in steps
+    Real pressure = 0;  ///< mean over its triangles; 0 unless all of them bear a load, Pa
+    Index triangles = 0;
+    Index first_member = 0, last_member = 0;
   };
   /// The part of a lag that is left after a step: a tenth of a cell at a time.
   Vec3 shortened(Vec3 const& lag) const;
-  std::span<Vec3> arms(Vertex const& v) {
-    return std::span(arm_).subspan(static_cast<std::size_t>(v.first_member),
-                                   static_cast<std::size_t>(v.last_member - v.first_member));
+  static std::span<Vec3> of(Vertex const& v, std::vector<Vec3>& members) {
+    return std::span(members).subspan(static_cast<std::size_t>(v.first_member),
+                                      static_cast<std::size_t>(v.last_member - v.first_member));
   }
   static Index find(std::vector<Vertex> const& vertices, GlobalId vertex);
   Index local(GlobalId vertex) const { return find(vertices_, vertex); }
@@ -100,15 +113,30 @@ class WallSurface {
   std::shared_ptr<solid::Surface const> surface_, saved_surface_;
   fluid::Flow& flow_;
   parallel::Comm& comm_;
-  std::vector<Vertex> vertices_, saved_;  ///< sorted by id
-  std::vector<Index> member_;             ///< local particles of the vertices
-  std::vector<Vec3> arm_;                 ///< beside member_
+  std::vector<Vertex> vertices_, saved_;             ///< sorted by id
+  std::vector<Index> member_;                        ///< local particles of the vertices
+  std::vector<Vec3> arm_, arm_before_, arm_middle_;  ///< beside member_: at the end, start, middle of the step
+  bool centred_ = false;                             ///< the present loads are
   /// An element of the surface that belongs to an owned particle, with the places of its vertices in vertices_.
   struct Triangle {
-    std::size_t element;
-    GlobalId surface;
-    std::array<std::size_t, 3> vertex;
+    std::size_t element = 0;
+    GlobalId surface = 0;
+    std::array<std::size_t, 3> vertex{};
+    std::array<Vec3, 3> given{}, force{};  ///< what the fluid gives the corners, what the solid feels, N
+    Real wetted = 0;                       ///< area of the pieces that bear a load, m2
+    bool loaded = false;
+    Real told = 0;  ///< the centring that was last sent
   };
+  /// Collective. Loads of the pieces to the owners of their triangles, summed in the order of cells.
+  void gather_forces(std::vector<CellForce> const& forces);
+  /// Collective. A row for every corner of a loaded triangle, to all ranks that own a particle of the vertex; received
+  /// by vertex and triangle.
+  template <class Row>
+  std::vector<Row> to_members(std::function<Row(Triangle const&, std::size_t)> const& row);
+  /// Collective. The forces on the areas at the end of the step become those on the areas in its middle.
+  void centre();
+  /// What the work of the load on a triangle exceeds what the fluid gives with the velocity of the vertices, W/m2.
+  Real centring(Triangle const& t) const;
   std::vector<Triangle> triangles_;
   struct Reach {
     int rank;
