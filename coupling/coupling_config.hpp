@@ -69,9 +69,7 @@ struct CouplingConfig {
   static void keys(Keys<CouplingConfig>& k) {
     k("scheme", &CouplingConfig::scheme, "",
       "how gas and solid alternate in a step: lag: on the boundary predicted under the last loads; semi: repeated "
-      "until "
-      "boundary and loads agree; explicit: loads of the boundary at the start of the step, inexact for bodies that "
-      "turn")
+      "until boundary and loads agree; explicit: loads of the boundary at the start of the step")
         .one_of({"lag", "semi", "explicit"});
     k("light_solids", &CouplingConfig::light_solids, "",
       "where a particle weighs less than 0.7 of the gas in a cell beside it: limit the step to that share of the "

@@ -176,6 +176,14 @@ void CutCells::take(Vec3 const& force, Real heat, Vec3 const& velocity, Real dt,
   exchanged_energy_.add(dt * std::abs(work));
 }
 
+void CutCells::take_difference(Index triangle, Real area, Real dt, State& amount) {
+  SurfaceTriangle const& t = next_.triangles[static_cast<std::size_t>(triangle)];
+  Real const energy = dt * area * t.centring;
+  for (int d = 0; d < 3; ++d) amount[static_cast<std::size_t>(d) + 1] -= dt * area * t.turning[d];
+  amount[4] -= energy;
+  exchanged_energy_.add(std::abs(energy));
+}
+
 Vec3 CutCells::swept_pressure(CellIndex c) const {
   fluid::Grid const& grid = flow_.grid();
   Block const& block = *std::as_const(flow_).find(grid.block_of(c));
@@ -198,9 +206,7 @@ void CutCells::exchange_at_end(CutCell const& cut, Real dt, State& amount) {
     PieceFriction const friction = viscous_ ? (*viscous_)[static_cast<std::size_t>(f)] : PieceFriction{};
     if (viscous_) force += friction.force;
     take(force, friction.heat, next_.wall_velocity(piece.triangle, piece.bary_centroid), dt, amount);
-    Real const centring = dt * next_.triangles[static_cast<std::size_t>(piece.triangle)].centring * norm(piece.area);
-    amount[4] -= centring;
-    exchanged_energy_.add(std::abs(centring));
+    take_difference(piece.triangle, norm(piece.area), dt, amount);
   }
 }
 
@@ -210,6 +216,7 @@ void CutCells::exchange_of_start(CutCell const& cut, Real dt, State& amount) {
     at_start_.for_parts(record_, next_, piece, [&](TrianglePart const& part, StartExchange::Share const& share, auto&) {
       take(part.share * share.force, part.share * share.heat, next_.wall_velocity(piece.triangle, part.bary), dt,
            amount);
+      take_difference(piece.triangle, part.share * share.area, dt, amount);
     });
   }
 }
@@ -226,6 +233,7 @@ void CutCells::exchange_outside(Real dt) {
                             State paid{};  // by nobody inside: as if it came from beyond the boundary
                             take(part.share * share.force, part.share * share.heat,
                                  next_.wall_velocity(piece.triangle, part.bary), dt, paid);
+                            take_difference(piece.triangle, part.share * share.area, dt, paid);
                             for (std::size_t q = 1; q < 5; ++q) crossed_[q].add(-paid[q]);
                           });
     }

@@ -68,7 +68,7 @@ void CutCells::begin() {
   sweeper_.rebuild(record_);
   std::vector<CellForce> forces;
   wall_pressure(record_, true, forces);
-  surface_.apply(forces, false);
+  surface_.apply(forces, LoadOf::present);
   remark_on_start();
 }
 

@@ -86,6 +86,8 @@ class CutCells : public Effect {
   void wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces);
   /// What a part of the wall with this velocity receives in a step is taken from `amount`.
   void take(Vec3 const& force, Real heat, Vec3 const& velocity, Real dt, fluid::State& amount);
+  /// So is what the load on this area of a triangle of next_ differs from what the solid receives.
+  void take_difference(Index triangle, Real area, Real dt, fluid::State& amount);
   void exchange_at_end(CutCell const& cut, Real dt, fluid::State& amount);
   void exchange_of_start(CutCell const& cut, Real dt, fluid::State& amount);
   /// Pressures of the sweeps in an owned cell, Pa.

@@ -23,8 +23,9 @@ std::size_t StartExchange::first_of(GlobalId triangle) const {
 }
 
 void StartExchange::give(WallRecord const& record, std::size_t piece, Vec3 const& force, Real heat) {
-  Real const share = part_of(record.geometry.corners_of(record.geometry.pieces[piece])).share;
-  if (share > 0) shares_[piece] = {force / share, heat / share};
+  Piece const& p = record.geometry.pieces[piece];
+  Real const share = part_of(record.geometry.corners_of(p)).share;
+  if (share > 0) shares_[piece] = {force / share, heat / share, norm(p.area) / share};
 }
 
 void StartExchange::exchange(WallRecord const& record, fluid::Flow const& flow, parallel::Comm& comm) {

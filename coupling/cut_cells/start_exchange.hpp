@@ -16,6 +16,7 @@ class StartExchange {
   struct Share {
     Vec3 force;     ///< N
     Real heat = 0;  ///< W
+    Real area = 0;  ///< that bears a load, m2
   };
 
   /// Nothing yet on the pieces of `record`, the boundary at t^n.

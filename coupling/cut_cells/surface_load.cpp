@@ -76,6 +76,13 @@ std::vector<Row> WallSurface::to_members(std::function<Row(Triangle const&, std:
   return rows;
 }
 
+std::array<std::array<Vec3, 3>, 2> WallSurface::places(Triangle const& t) const {
+  std::array<std::array<Vec3, 3>, 2> x{};
+  for (std::size_t a = 0; a < static_cast<std::size_t>(flow_.grid().dimension); ++a)
+    x[0][a] = vertices_[t.vertex[a]].record, x[1][a] = vertices_[t.vertex[a]].position;
+  return x;
+}
+
 void WallSurface::centre() {
   int const dimension = flow_.grid().dimension;
   auto const corners = static_cast<std::size_t>(dimension);
@@ -86,7 +93,11 @@ void WallSurface::centre() {
   auto const pressed = to_members<Pressed>([&](Triangle const& t, std::size_t a) {
     std::array<Vec3, 3> x{};
     Vec3 force;
-    for (std::size_t c = 0; c < corners; ++c) x[c] = vertices_[t.vertex[c]].position, force += t.given[c];
+    for (std::size_t c = 0; c < corners; ++c) {
+      Vertex const& v = vertices_[t.vertex[c]];
+      x[c] = load_of_ == LoadOf::start ? v.record : v.position;
+      force += t.given[c];
+    }
     Vec3 const area = dimension == 2 ? Vec3{x[1].y - x[0].y, x[0].x - x[1].x, 0} : cross(x[1] - x[0], x[2] - x[0]);
     Real const size = norm(area);
     solid::Element const& e = surface_->elements()[t.element];
@@ -101,20 +112,21 @@ void WallSurface::centre() {
     v.pressure = wet == v.triangles ? force / area : 0;
   }
   for (Triangle& t : triangles_) {
-    std::array<Vec3, 3> before{}, after{};
-    for (std::size_t a = 0; a < corners; ++a)
-      before[a] = vertices_[t.vertex[a]].record, after[a] = vertices_[t.vertex[a]].position;
-    std::array<Vec3, 3> const gained = area_gained(dimension, flow_.grid().spacing.z, before, after);
+    auto const [record, position] = places(t);
+    std::array<Vec3, 3> const gained = load_of_ == LoadOf::start
+                                           ? area_gained(dimension, flow_.grid().spacing.z, position, record)
+                                           : area_gained(dimension, flow_.grid().spacing.z, record, position);
     Vec3 share;
     for (std::size_t a = 0; a < corners; ++a) share += vertices_[t.vertex[a]].pressure * gained[a];
     for (std::size_t a = 0; a < corners; ++a) t.force[a] += share / static_cast<Real>(corners);
   }
 }
 
-void WallSurface::apply(std::vector<CellForce> const& forces, bool centred) {
-  centred_ = centred;
+void WallSurface::apply(std::vector<CellForce> const& forces, LoadOf of) {
+  load_of_ = of;
   gather_forces(forces);
   for (Vertex& v : vertices_) v.pressure = 0;
+  bool const centred = of != LoadOf::present;
   if (centred) centre();
   struct CornerForce {
     GlobalId vertex, triangle;
@@ -145,13 +157,25 @@ void WallSurface::apply(std::vector<CellForce> const& forces, bool centred) {
 }
 
 Real WallSurface::centring(Triangle const& t) const {
-  if (!centred_ || !(t.wetted > 0)) return 0;
+  if (load_of_ == LoadOf::present || !(t.wetted > 0)) return 0;
   Real power = 0;
   for (std::size_t a = 0; a < static_cast<std::size_t>(flow_.grid().dimension); ++a) {
     Vertex const& v = vertices_[t.vertex[a]];
     power += dot(t.force[a], v.working) - dot(t.given[a], v.velocity);
   }
   return power / t.wetted;
+}
+
+Vec3 WallSurface::turning(Triangle const& t) const {
+  if (load_of_ != LoadOf::start || !(t.wetted > 0)) return {};
+  int const dimension = flow_.grid().dimension;
+  auto const [record, position] = places(t);
+  auto const to_end = area_gained(dimension, flow_.grid().spacing.z, record, position);
+  auto const to_start = area_gained(dimension, flow_.grid().spacing.z, position, record);
+  Vec3 force;
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
+    force -= vertices_[t.vertex[a]].pressure * (to_end[a] - to_start[a]);
+  return force / t.wetted;
 }
 
 }  // namespace brisance::coupling

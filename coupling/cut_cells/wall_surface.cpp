@@ -176,10 +176,14 @@ void WallSurface::take_velocities(Real share, bool first) {
   for (Vertex& v : vertices_) {
     Vec3 const part = share * surface_->velocity(static_cast<Index>(v.id), solid_, of(v, arm_));
     v.velocity = first ? part : v.velocity + part;
-    if (!centred_) continue;
+    if (load_of_ == LoadOf::present) continue;
     Vec3 const middle = share * surface_->velocity(static_cast<Index>(v.id), solid_, of(v, arm_middle_));
     v.working = first ? middle : v.working + middle;
   }
+}
+
+void WallSurface::take_velocities_at_start() {
+  for (Vertex& v : vertices_) v.velocity = surface_->velocity(static_cast<Index>(v.id), solid_, of(v, arm_before_));
 }
 
 Real WallSurface::away() const {
@@ -254,6 +258,8 @@ void WallSurface::send_triangles(std::vector<SurfaceTriangle>& received) {
     SurfaceTriangle triangle;
     triangle.id = t.id;
     triangle.surface = mine.surface;
+    triangle.centring = centring(mine);
+    triangle.turning = turning(mine);
     for (std::size_t a = 0; a < corners; ++a) triangle.vertex[a] = t.vertex[a];
     constexpr Index far = std::numeric_limits<Index>::max() / 2;
     CellBox box{{far, far, far}, {-far, -far, -far}};
@@ -276,7 +282,7 @@ void WallSurface::send_triangles(std::vector<SurfaceTriangle>& received) {
     triangles.push_back(triangle);
   }
   for (Vertex& v : vertices_) v.told = v.velocity;
-  for (Triangle& t : triangles_) t.told = 0;
+  for (Triangle& t : triangles_) t.told = centring(t);
   sent_.assign(targets.begin(), targets.end());
   std::vector<parallel::Message> out;
   for (auto const& [rank, places] : sent_) {

@@ -22,10 +22,13 @@ struct CellForce {
   Real area = 0;  ///< of these pieces, m2
 };
 
-/// What the area vector of a triangle (2D: a segment times `depth`) gains from the middle of a step to its end, by the
-/// vertex that moves, m2. The parts of one vertex add up to nothing over the triangles around it.
+/// What the area vector of a triangle (2D: a segment times `depth`) gains from half way to `after`, by the vertex that
+/// moves, m2. The parts of one vertex add up to nothing over the triangles around it.
 std::array<Vec3, 3> area_gained(int dimension, Real depth, std::array<Vec3, 3> const& before,
                                 std::array<Vec3, 3> const& after);
+
+/// The boundary whose areas bear a load: the present one, for good, or one of the two of a step that moves it.
+enum class LoadOf { present, start, end };
 
 class WallSurface {
  public:
@@ -53,6 +56,8 @@ class WallSurface {
   /// `share` of the vertex velocities of a half step under the frozen arms, added to those of earlier sub-steps or, as
   /// the first, instead of them. Expects: half-step velocities of ghosts are current.
   void take_velocities(Real share = 1, bool first = true);
+  /// The present velocities under the arms of begin_step: those of the boundary of record.
+  void take_velocities_at_start();
   /// Largest distance along an axis, in cells, of a local vertex from where the particles are now; infinite when that
   /// is no number.
   Real away() const;
@@ -65,10 +70,11 @@ class WallSurface {
   void repeat_triangles(std::vector<SurfaceTriangle> const& record, std::vector<SurfaceTriangle>& received) const;
   /// Collective. The present vertex velocities, where they changed, into the same triangles; true if any came here.
   bool send_velocities(std::vector<SurfaceTriangle>& received);
-  /// Collective. Conjugate load: `forces` of this rank's cells, which are those on the areas at the end of the step,
-  /// become forces and torques of particles; if `centred`, as they are in the middle of the step. The total force stays
-  /// the same to round-off; the work differs by SurfaceTriangle::centring.
-  void apply(std::vector<CellForce> const& forces, bool centred);
+  /// Collective. Conjugate load: `forces` of this rank's cells become forces and torques of particles; those on the
+  /// areas at the start or end of the step as they are in its middle. The total force stays the same to round-off; the
+  /// work differs by SurfaceTriangle::centring. Loads of the start stay those of the fluid until the boundary has
+  /// turned: the difference, nothing in all, is SurfaceTriangle::turning.
+  void apply(std::vector<CellForce> const& forces, LoadOf of);
 
   Real fastest_vertex(int direction) const;  ///< m/s, over local vertices
   bool moved() const;                        ///< any vertex whose predicted position differs from the record
@@ -116,7 +122,7 @@ class WallSurface {
   std::vector<Vertex> vertices_, saved_;             ///< sorted by id
   std::vector<Index> member_;                        ///< local particles of the vertices
   std::vector<Vec3> arm_, arm_before_, arm_middle_;  ///< beside member_: at the end, start, middle of the step
-  bool centred_ = false;                             ///< the present loads are
+  LoadOf load_of_ = LoadOf::present;
   /// An element of the surface that belongs to an owned particle, with the places of its vertices in vertices_.
   struct Triangle {
     std::size_t element = 0;
@@ -133,10 +139,14 @@ class WallSurface {
   /// by vertex and triangle.
   template <class Row>
   std::vector<Row> to_members(std::function<Row(Triangle const&, std::size_t)> const& row);
-  /// Collective. The forces on the areas at the end of the step become those on the areas in its middle.
+  /// Collective. The forces on the areas at an end of the step become those on the areas in its middle.
   void centre();
+  /// Record and present positions of the vertices.
+  std::array<std::array<Vec3, 3>, 2> places(Triangle const& t) const;
   /// What the work of the load on a triangle exceeds what the fluid gives with the velocity of the vertices, W/m2.
   Real centring(Triangle const& t) const;
+  /// What the force on the area that a triangle now has exceeds that on its area at the start, per wetted area, Pa.
+  Vec3 turning(Triangle const& t) const;
   std::vector<Triangle> triangles_;
   struct Reach {
     int rank;

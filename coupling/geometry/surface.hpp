@@ -36,7 +36,9 @@ struct SurfaceTriangle {
   GlobalId surface = 0;  ///< the closed surface it belongs to, by its lowest triangle
   std::array<GlobalId, 3> vertex{};
   std::array<Vec3, 3> x_old{}, x_new{}, velocity{};
-  Real centring = 0;  ///< power that the fluid gives beside force times velocity, W/m2 (WallSurface::apply)
+  // What the fluid gives beside its loads, per area that bears one (WallSurface::apply):
+  Real centring = 0;  ///< power, W/m2
+  Vec3 turning{};     ///< force, Pa
 
   bool moved(int dimension) const {
     for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)

@@ -53,9 +53,8 @@ TEST(LightSolid, FollowsTheAcousticsOfBothSides) {
       ASSERT_EQ(c.world->plan.remarks().size(), 1u);
       EXPECT_NE(c.world->plan.remarks()[0].find("light solid"), std::string::npos);
       std::string const variant = scheme + "; panel of " + short_number(weight) + " of the gas of a cell";
-      // The panel is there in a few steps; loads of the start of a step are late by half of one.
-      EXPECT_TRUE(evidence::at_most("V1", "light panel", variant, "error over the terminal velocity", error(c, weight),
-                                    scheme == "explicit" ? 0.25 : 0.06));
+      EXPECT_TRUE(
+          evidence::at_most("V1", "light panel", variant, "error over the terminal velocity", error(c, weight), 0.06));
       EXPECT_TRUE(evidence::at_most("V1", "light panel", variant, "rejected pairs",
                                     static_cast<double>(c.simulation().statistics().retries), 0));
       EXPECT_GT(c.simulation().statistics().limited_by.at("coupling.light_solid"), c.step() / 2);

@@ -50,8 +50,8 @@ std::string spinning_polygon(std::string const& scheme) {
          coupling(scheme);
 }
 
-/// V4. The closure of the cut cells is lost by `explicit` alone: loads on the boundary at the start, apertures of the
-/// end.
+/// V4. `explicit` as published loses the closure of the cut cells and gets 0.24: loads on the boundary at the start,
+/// apertures of the end.
 TEST(TimeCoupling, SpinningPolygon) {
   for (std::string const& scheme : schemes) {
     CoupledCase c(spinning_polygon(scheme));
@@ -59,10 +59,7 @@ TEST(TimeCoupling, SpinningPolygon) {
     timed_run(c, "V4 " + scheme, 100, [&] { largest = max(largest, deviation(c, 1.4, {}, 1)); });
     ASSERT_EQ(c.step(), 100);
     char const* const name = "spinning 400-gon";
-    if (scheme == "explicit")
-      EXPECT_TRUE(evidence::near("V4", name, scheme, "largest change of the gas", largest, 0.235, 0.03));
-    else
-      EXPECT_TRUE(evidence::at_most("V4", name, scheme, "largest change of the gas", largest, 3e-3));
+    EXPECT_TRUE(evidence::at_most("V4", name, scheme, "largest change of the gas", largest, 3e-3));
     expect_balance(c, "V4", name, scheme);
     EXPECT_TRUE(evidence::at_most("V4", name, scheme, "energy defect", c.conservation().energy, 1e-12));
   }
