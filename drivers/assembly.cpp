@@ -142,6 +142,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   auto world = std::make_unique<World>();
   World& w = *world;
   w.comm = &comm;
+  if (scene.output.ledger == "stage") w.plan.charge_stages();
   std::optional<fluid::Grid> grid;
   if (scene.fluid) {
     fluid::check(*scene.fluid);
@@ -264,6 +265,11 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     control.most_sub_steps = scene.coupling->largest_sub_steps();
   }
   w.simulation = std::make_unique<Simulation>(w.plan, comm, control);
+  if (StageLedger const* const stages = w.simulation->stages())
+    w.plan.finding([&w, stages] {
+      std::string const text = open_accounts(*stages, w.simulation->ledger().scales());
+      return w.comm->rank() == 0 ? text : std::string();
+    });
   return world;
 }
 
