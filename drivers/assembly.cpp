@@ -153,11 +153,6 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     fluid::check_cell_fields(scene.output.fields, *scene.fluid, grid->dimension, scene.output.at);
   }
   bool const coupled = scene.coupling && scene.coupling->cut_cells;
-  if (coupled && scene.coupling->cut_cells->load == "relative" && scene.coupling->scheme == "explicit")
-    scene_error(
-        scene.coupling->at,
-        "coupling.cut_cells.load = \"relative\" needs the boundary at the end of the step, which scheme = \"explicit\" "
-        "does not load: take \"lag\" or \"semi\" with it");
   require(!coupled || w.dimension >= 2, Failure::scene, "coupling.cut_cells needs a fluid in 2 or 3 dimensions");
   if (coupled && !scene.fluid->euler)
     scene_error(scene.fluid->at, "coupling.cut_cells needs the effect fluid.euler: add euler = {} to [fluid]");

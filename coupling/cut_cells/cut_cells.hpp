@@ -121,6 +121,8 @@ class CutCells : public Effect {
   void charge(Part part);
   /// Loads relative to the ambient pressure: the difference from what the fluid gives goes to the account.
   void ambient_account(Real dt);
+  /// Velocity in this step of the wall where a piece of the present boundary was, m/s.
+  Vec3 velocity_in_step(Piece const& piece) const;
   /// What the fluid gives where it exerts `chi` times `pressure` on a piece, and what the solid feels of it, N.
   static Vec3 force_of_gas(Real chi, Vec3 const& pressure, Vec3 const& area) {
     return {-chi * pressure.x * area.x, -chi * pressure.y * area.y, -chi * pressure.z * area.z};
