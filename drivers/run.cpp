@@ -158,8 +158,10 @@ int execute(Job const& job, parallel::Comm& comm) {
     }
     if (seconds_now() - last_report > 10) {
       last_report = seconds_now();
-      spdlog::info("step {}  t = {:.6g} s  dt = {:.3g} s ({})  energy defect {:.2g}", simulation.clock().step,
+      int const sub_steps = simulation.clock().sub_steps;
+      spdlog::info("step {}  t = {:.6g} s  dt = {:.3g} s ({}){}  energy defect {:.2g}", simulation.clock().step,
                    simulation.clock().time, simulation.clock().dt, simulation.limited_by(),
+                   sub_steps > 1 ? "  " + std::to_string(sub_steps) + " steps of the solid in each" : "",
                    simulation.ledger().conservation().energy_final);
     }
     if (stopped) break;

@@ -161,6 +161,11 @@ void write_summary(World& world, RunState const& run, std::string const& directo
     j["links"] = world.mesh ? static_cast<std::int64_t>(world.mesh->links.size()) : 0;
     j["links_broken"] = static_cast<std::int64_t>(simulation.ledger().received(Entry::links_broken));
     j["dt"] = {{"min", s.dt_min}, {"max", s.dt_max}, {"limited_by", s.limited_by}};
+    if (world.cut_cells)
+      j["sub_steps"] = {
+          {"min", s.sub_steps_min},
+          {"mean", clock.step > 0 ? static_cast<double>(s.solid_steps) / static_cast<double>(clock.step) : 0},
+          {"max", s.sub_steps_max}};
     j["conservation"] = {{"mass", c.mass},
                          {"momentum", {c.momentum.x, c.momentum.y, c.momentum.z}},
                          {"exchange_energy", c.exchange_energy},

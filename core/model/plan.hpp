@@ -35,9 +35,13 @@ class Plan {
     /// Of an effect that can sub-cycle: its limit and the smallest of the others, both over all ranks, -> the step it
     /// really asks for. Null: the limit itself.
     std::function<Real(Real own, Real others)> relax;
-    /// Does it bind the sub-steps of the solid instead of the whole step? So do those of its effects, but for contact:
-    /// it looks one step ahead, at who may meet in it.
-    bool of_solid() const { return name.starts_with("solid.") && name != "solid.contact"; }
+    /// Of an effect of the solid that looks ahead, where the solid takes sub-steps. They stand for `seconds` then:
+    /// the time over which it can look ahead at all, and the sub-step that it asks for when it looks again after
+    /// `horizon` s. Local both.
+    std::function<Real()> sight;
+    std::function<Real(Real horizon)> sub_step;
+    /// Does it bind the sub-steps of the solid instead of the whole step? So do those of its effects.
+    bool of_solid() const { return name.starts_with("solid.") && !sight; }
   };
   /// What an effect keeps of physics. `write` and `read` are collective; `save` and `restore` serve rejected pairs.
   struct Keep {
@@ -69,7 +73,12 @@ class Plan {
   void at(Stage stage, std::function<void(Clock const&)> run, std::function<Part(Clock const&)> part = nullptr);
   void limit(std::string name, std::function<Real(Clock const&)> seconds,
              std::function<Real(Real own, Real others)> relax = nullptr) {
-    limits_.push_back({std::move(name), std::move(seconds), std::move(relax)});
+    limits_.push_back({std::move(name), std::move(seconds), std::move(relax), nullptr, nullptr});
+  }
+  /// The limit of an effect of the solid that looks ahead.
+  void limit_ahead(std::string name, std::function<Real(Clock const&)> seconds, std::function<Real()> sight,
+                   std::function<Real(Real horizon)> sub_step) {
+    limits_.push_back({std::move(name), std::move(seconds), nullptr, std::move(sight), std::move(sub_step)});
   }
   void health(std::function<Verdict(Clock const&)> judge) { health_.push_back(std::move(judge)); }
   void keep(Keep k) { kept_.push_back(std::move(k)); }

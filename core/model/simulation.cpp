@@ -120,7 +120,9 @@ void Simulation::run_flow(Stage stage, Part part) {
 
 Real Simulation::choose_step(std::string& limited_by, bool& at_output) {
   std::vector<Real> seconds;
-  for (Plan::Limit const& limit : plan_.limits()) seconds.push_back(limit.seconds(clock_));
+  bool const sub_cycled = control_.most_sub_steps > 1;
+  for (Plan::Limit const& limit : plan_.limits())
+    seconds.push_back(sub_cycled && limit.sight ? limit.sight() / control_.steps_per_pair : limit.seconds(clock_));
   comm_.min(std::span(seconds));
   solid_limit_ = std::numeric_limits<Real>::max();
   for (std::size_t i = 0; i < seconds.size(); ++i)
@@ -137,6 +139,13 @@ Real Simulation::choose_step(std::string& limited_by, bool& at_output) {
   Real dt = std::numeric_limits<Real>::max();
   for (std::size_t i = 0; i < seconds.size(); ++i)
     if (seconds[i] < dt) dt = seconds[i], limited_by = plan_.limits()[i].name;
+  for (Plan::Limit const& limit : plan_.limits()) {
+    if (!sub_cycled || !limit.sight) continue;
+    Real own = limit.sub_step(dt * control_.steps_per_pair);
+    comm_.min(std::span(&own, 1));
+    solid_limit_ = min(solid_limit_, own);
+    if (own * control_.most_sub_steps < dt) dt = own * control_.most_sub_steps, limited_by = limit.name;
+  }
   dt *= retry_factor_;
   if (retry_factor_ < 1) limited_by = "retry";
   // End time and output times are hit exactly; a pair is shortened, never one half of it.
@@ -208,6 +217,9 @@ void Simulation::pair() {
       statistics_.dt_min = statistics_.dt_max == 0 ? clock_.dt : min(statistics_.dt_min, clock_.dt);
       statistics_.dt_max = max(statistics_.dt_max, clock_.dt);
       statistics_.limited_by[limited_by] += control_.steps_per_pair;
+      statistics_.sub_steps_min =
+          statistics_.sub_steps_max == 0 ? clock_.sub_steps : std::min(statistics_.sub_steps_min, clock_.sub_steps);
+      statistics_.sub_steps_max = std::max(statistics_.sub_steps_max, clock_.sub_steps);
       statistics_.solid_steps += control_.steps_per_pair * clock_.sub_steps;
       retry_factor_ = min(1, 2 * retry_factor_);
       audit();
@@ -255,6 +267,8 @@ void Simulation::write(parallel::ArchiveWriter& file) {
   file.attribute("dt_max", statistics_.dt_max);
   file.attribute("retries", statistics_.retries);
   file.attribute("solid_steps", statistics_.solid_steps);
+  file.attribute("sub_steps_min", std::int64_t{statistics_.sub_steps_min});
+  file.attribute("sub_steps_max", std::int64_t{statistics_.sub_steps_max});
   std::string limits;
   for (auto const& [limit, steps] : statistics_.limited_by) limits += limit + "=" + std::to_string(steps) + ";";
   file.attribute("limited_by", limits);
@@ -284,6 +298,8 @@ void Simulation::read(parallel::ArchiveReader& file) {
   statistics_.dt_max = file.real("dt_max");
   statistics_.retries = file.integer("retries");
   statistics_.solid_steps = file.integer("solid_steps");
+  statistics_.sub_steps_min = static_cast<int>(file.integer("sub_steps_min"));
+  statistics_.sub_steps_max = static_cast<int>(file.integer("sub_steps_max"));
   std::string const limits = file.text("limited_by");
   for (std::size_t at = 0; at < limits.size();) {
     std::size_t const equal = limits.find('=', at), stop = limits.find(';', equal);

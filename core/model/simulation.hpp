@@ -26,6 +26,7 @@ struct StepStatistics {
   std::map<std::string, std::int64_t> limited_by;  ///< steps per limit
   std::int64_t retries = 0;                        ///< rejected pairs
   std::int64_t solid_steps = 0;                    ///< sub-steps of the solid
+  int sub_steps_min = 0, sub_steps_max = 0;        ///< of a step
   std::string last_rejection;                      ///< why and where
 };
 
