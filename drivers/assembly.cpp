@@ -142,6 +142,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
   auto world = std::make_unique<World>();
   World& w = *world;
   w.comm = &comm;
+  if (scene.output.ledger == "stage") w.plan.charge_stages();
   std::optional<fluid::Grid> grid;
   if (scene.fluid) {
     fluid::check(*scene.fluid);
@@ -152,11 +153,6 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     fluid::check_cell_fields(scene.output.fields, *scene.fluid, grid->dimension, scene.output.at);
   }
   bool const coupled = scene.coupling && scene.coupling->cut_cells;
-  if (coupled && scene.coupling->cut_cells->load == "relative" && scene.coupling->scheme == "explicit")
-    scene_error(
-        scene.coupling->at,
-        "coupling.cut_cells.load = \"relative\" needs the boundary at the end of the step, which scheme = \"explicit\" "
-        "does not load: take \"lag\" or \"semi\" with it");
   require(!coupled || w.dimension >= 2, Failure::scene, "coupling.cut_cells needs a fluid in 2 or 3 dimensions");
   if (coupled && !scene.fluid->euler)
     scene_error(scene.fluid->at, "coupling.cut_cells needs the effect fluid.euler: add euler = {} to [fluid]");
@@ -264,6 +260,11 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
     control.most_sub_steps = scene.coupling->largest_sub_steps();
   }
   w.simulation = std::make_unique<Simulation>(w.plan, comm, control);
+  if (StageLedger const* const stages = w.simulation->stages())
+    w.plan.finding([&w, stages] {
+      std::string const text = open_accounts(*stages, w.simulation->ledger().scales());
+      return w.comm->rank() == 0 ? text : std::string();
+    });
   return world;
 }
 

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 
 #include <spdlog/spdlog.h>
 
 #include "core/solid/loads/blast_report.hpp"
 #include "drivers/checkpoints.hpp"
 #include "drivers/commands.hpp"
+#include "drivers/history.hpp"
 #include "drivers/log.hpp"
 #include "drivers/mesh_files.hpp"
 #include "drivers/output.hpp"
@@ -29,44 +29,6 @@ extern "C" void note_signal(int signal) { stop_signal = signal; }
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-/// history.csv: appended on rank 0; after a restart the rows of steps that are run again are dropped.
-class History {
- public:
-  History(World const& world, std::string const& directory, std::optional<double> interval)
-      : world_(world), path_(directory + "/history.csv"), interval_(interval) {
-    if (world.comm->rank() != 0) return;
-    std::string kept = history_header();
-    std::ifstream old(path_);
-    std::string line;
-    std::int64_t const step = world.simulation->clock().step;
-    if (step > 0 && std::getline(old, line))
-      while (std::getline(old, line))
-        if (std::atoll(line.c_str()) <= step) kept += line + "\n";
-    old.close();
-    std::ofstream file(path_);
-    file << kept << std::flush;
-    require(file.good(), Failure::system, path_ + ": cannot be written (is the disk full?)");
-    if (interval_) next_ = std::floor(world.simulation->clock().time / *interval_ * (1 + 1e-12)) + 1;
-  }
-  void row() {
-    if (world_.comm->rank() != 0) return;
-    if (interval_) {
-      if (world_.simulation->clock().time < next_ * *interval_ * (1 - 1e-12)) return;
-      next_ = std::floor(world_.simulation->clock().time / *interval_ * (1 + 1e-12)) + 1;
-    }
-    std::ofstream file(path_, std::ios::app);
-    file << history_row(world_);
-    file.flush();
-    require(file.good(), Failure::system, path_ + ": cannot be written (is the disk full?)");
-  }
-
- private:
-  World const& world_;
-  std::string path_;
-  std::optional<double> interval_;
-  double next_ = 1;
-};
 
 struct Job {
   LoadedScene loaded;
@@ -196,8 +158,10 @@ int execute(Job const& job, parallel::Comm& comm) {
     }
     if (seconds_now() - last_report > 10) {
       last_report = seconds_now();
-      spdlog::info("step {}  t = {:.6g} s  dt = {:.3g} s ({})  energy defect {:.2g}", simulation.clock().step,
+      int const sub_steps = simulation.clock().sub_steps;
+      spdlog::info("step {}  t = {:.6g} s  dt = {:.3g} s ({}){}  energy defect {:.2g}", simulation.clock().step,
                    simulation.clock().time, simulation.clock().dt, simulation.limited_by(),
+                   sub_steps > 1 ? "  " + std::to_string(sub_steps) + " steps of the solid in each" : "",
                    simulation.ledger().conservation().energy_final);
     }
     if (stopped) break;

@@ -76,6 +76,10 @@ void OutputConfig::keys(Keys<OutputConfig>& k) {
     "particles' centres and their rotation vector, and the mean stress of each particle (the loads of a fluid on its "
     "faces do not count); tension is positive")
       .words = solid::particle_field_names();
+  k("ledger", &OutputConfig::ledger, "",
+    "stage: the defects of mass, momentum and energy are charged to the part of the step that made them, in stages.csv "
+    "and summary.json; costs a sum over all cells and particles after each part")
+      .one_of({"total", "stage"});
   k("gauge", &OutputConfig::gauge, "", "points where the gas is watched; each writes gauges/NAME.csv");
   k("solid_gauge", &OutputConfig::solid_gauge, "",
     "particles, surface points, supports and sections of the solid that are watched; each writes gauges/NAME.csv");

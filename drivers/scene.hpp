@@ -21,6 +21,7 @@ struct OutputConfig {
   std::optional<double> history_interval;     // s
   std::vector<std::string> fields = {"density", "pressure", "velocity"};
   std::vector<std::string> solid_fields = {"displacement", "velocity", "von_mises"};
+  std::string ledger = "total";
   std::vector<fluid::GaugeConfig> gauge;
   std::vector<solid::SolidGaugeConfig> solid_gauge;
   Location at;

@@ -51,6 +51,21 @@ nlohmann::ordered_json gauge_figures(solid::SolidGauges const& gauges) {
   return all;
 }
 
+nlohmann::ordered_json stage_figures(StageLedger const& stages, Ledger const& ledger) {
+  DefectScales const scale = ledger.scales();
+  nlohmann::ordered_json all;
+  for (std::size_t p = 0; p < part_count; ++p) {
+    Part const part = static_cast<Part>(p);
+    if (!stages.charged(part)) continue;
+    std::array<Real, 5> const most = stages.largest(part);
+    all[name(part)] = {{"mass", most[0] / scale.mass},
+                       {"momentum", {most[1] / scale.momentum, most[2] / scale.momentum, most[3] / scale.momentum}},
+                       {"energy", most[4] / scale.energy},
+                       {"energy_final", stages.defect(part)[4] / scale.energy}};
+  }
+  return all;
+}
+
 }  // namespace
 
 void update_extrema(World& world, RunState& run) {
@@ -146,6 +161,11 @@ void write_summary(World& world, RunState const& run, std::string const& directo
     j["links"] = world.mesh ? static_cast<std::int64_t>(world.mesh->links.size()) : 0;
     j["links_broken"] = static_cast<std::int64_t>(simulation.ledger().received(Entry::links_broken));
     j["dt"] = {{"min", s.dt_min}, {"max", s.dt_max}, {"limited_by", s.limited_by}};
+    if (world.cut_cells)
+      j["sub_steps"] = {
+          {"min", s.sub_steps_min},
+          {"mean", clock.step > 0 ? static_cast<double>(s.solid_steps) / static_cast<double>(clock.step) : 0},
+          {"max", s.sub_steps_max}};
     j["conservation"] = {{"mass", c.mass},
                          {"momentum", {c.momentum.x, c.momentum.y, c.momentum.z}},
                          {"exchange_energy", c.exchange_energy},
@@ -204,54 +224,14 @@ void write_summary(World& world, RunState const& run, std::string const& directo
     j["partition"] = {{"imbalance_cells", imbalance(cells)},
                       {"imbalance_measured", imbalance(busy)},
                       {"edge_cut", world.partition.edge_cut}};
+    if (StageLedger const* const stages = simulation.stages())
+      j["stages"] = stage_figures(*stages, simulation.ledger());
     if (world.gauges) j["gauges"] = gauge_figures(*world.gauges);
     if (world.solid_gauges) j["solid_gauges"] = gauge_figures(*world.solid_gauges);
     j["state_digest"] = digest;
     text = j.dump(2) + "\n";
   }
   parallel::write_text_atomically(comm, directory + "/summary.json", text);
-}
-
-std::string history_header() {
-  return "step,time,dt,limited_by,mass,energy,energy_fluid,energy_kinetic,energy_elastic,energy_stored,energy_"
-         "dissipated,defect_mass,"
-         "defect_momentum_x,"
-         "defect_momentum_y,defect_momentum_z,defect_exchange_energy,defect_energy,defect_energy_fluid,defect_energy_"
-         "solid,"
-         "links_broken\n";
-}
-
-namespace {
-
-/// Where the energy defect comes from, over the scale of defect_energy: the fluid and its walls (sweeps, flow_update,
-/// mix), and the steps of the solid (kick to fracture). Their sum is defect_energy.
-std::array<Real, 2> energy_defects(Ledger const& l) {
-  auto const stored = l.store();  // begins with the totals of the start
-  auto const change = [&](Entry e) { return l.total(e) - stored[static_cast<std::size_t>(e)]; };
-  Real const fluid = change(Entry::fluid_energy) - l.received(Entry::fluid_in_energy) + l.received(Entry::wall_work);
-  Real const all = change(Entry::energy) - l.received(Entry::in_energy) + l.received(Entry::dissipated);
-  Real const scale =
-      max(max(std::abs(l.total(Entry::energy)), std::abs(stored[static_cast<std::size_t>(Entry::energy)])),
-          l.received(Entry::exchanged_energy));
-  return scale > 0 ? std::array<Real, 2>{fluid / scale, (all - fluid) / scale}
-                   : std::array<Real, 2>{fluid, all - fluid};
-}
-
-}  // namespace
-
-std::string history_row(World const& world) {
-  Simulation const& s = *world.simulation;
-  Ledger const& l = s.ledger();
-  Conservation const& c = l.conservation();
-  std::array<Real, 2> const energy = energy_defects(l);
-  return fmt::format(
-      "{},{:.17g},{:.17g},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.3g},{:.3g},{:.3g},{:.3g},{:.3g}"
-      ",{:.3g},{:.3g},{:.3g},{}\n",
-      s.clock().step, s.clock().time, s.clock().dt, s.limited_by(), l.total(Entry::mass), l.total(Entry::energy),
-      l.total(Entry::fluid_energy), l.total(Entry::solid_kinetic), l.total(Entry::solid_elastic),
-      l.total(Entry::solid_stored), l.received(Entry::dissipated), c.mass, c.momentum.x, c.momentum.y, c.momentum.z,
-      c.exchange_energy, c.energy_final, energy[0], energy[1],
-      static_cast<std::int64_t>(l.received(Entry::links_broken)));
 }
 
 }  // namespace brisance::drivers

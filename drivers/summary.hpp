@@ -1,4 +1,4 @@
-// summary.json of the contract, and the row of history.csv.
+// summary.json of the contract.
 #pragma once
 #include <limits>
 #include <string>
@@ -19,8 +19,5 @@ void update_extrema(World& world, RunState& run);
 
 /// Collective. Writes DIR/summary.json atomically.
 void write_summary(World& world, RunState const& run, std::string const& directory);
-
-std::string history_header();
-std::string history_row(World const& world);
 
 }  // namespace brisance::drivers

@@ -1,5 +1,7 @@
 #include "fluid/euler.hpp"
 
+#include <algorithm>
+
 #include "fluid/rows.hpp"
 
 namespace brisance::fluid {
@@ -7,8 +9,8 @@ namespace brisance::fluid {
 void Euler::join(Plan& plan) {
   plan.effect("fluid.euler", [this] { return flow_.bytes(); });
   int const dimension = flow_.grid().dimension;
-  for (std::size_t sweep = 0; sweep < static_cast<std::size_t>(most_sweeps(dimension, flow_.splitting())); ++sweep)
-    plan.at(Stage::sweeps, [this, sweep, dimension](Clock const& clock) {
+  for (std::size_t sweep = 0; sweep < static_cast<std::size_t>(most_sweeps(dimension, flow_.splitting())); ++sweep) {
+    auto const run = [this, sweep, dimension](Clock const& clock) {
       std::vector<Sweep> const sequence = sweeps(dimension, clock.step, flow_.splitting());
       if (sweep >= sequence.size()) return;  // the second step of a merged pair
       auto const [direction, share, middle] = sequence[sweep];
@@ -20,7 +22,13 @@ void Euler::join(Plan& plan) {
       if (sweep == 0)
         for (Block const& block : std::as_const(flow_).blocks())
           cell_updates_ += std::int64_t{block.size()[0]} * block.size()[1] * block.size()[2];
-    });
+    };
+    auto const part = [this, sweep, dimension](Clock const& clock) {
+      std::vector<Sweep> const sequence = sweeps(dimension, clock.step, flow_.splitting());
+      return sweep_part(sequence[std::min(sweep, sequence.size() - 1)].direction);
+    };
+    plan.at(Stage::sweeps, run, part);
+  }
   plan.limit("fluid.acoustic", [this](Clock const& clock) { return acoustic_limit(clock); });
   plan.health([this](Clock const&) { return judge(); });
   plan.account([this](Ledger& ledger) { account(ledger); });
@@ -83,7 +91,6 @@ void Euler::account(Ledger& ledger) {
   ledger.add(Entry::fluid_in_energy, crossed.gained[4]);
   ledger.add(Entry::pressure_impulse, crossed.impulse);
   ledger.add(Entry::exchanged_energy, crossed.energy_size);
-  report_ = {};
 }
 
 }  // namespace brisance::fluid

@@ -62,13 +62,22 @@ def surface(path, first, scale, field):
     return [faces[n] for n in seen], values[seen], time
 
 
+def pick(count):
+    """Up to four of `count` frames, without the first one if there are others."""
+    return sorted({round(i) for i in np.linspace(min(1, count - 1), count - 1, 4)})
+
+
+def blank_rest(panels, used):
+    for panel in panels.flat[used:]:
+        panel.set_visible(False)
+
+
 def draw_solid(o):
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     frames = sorted(glob.glob(os.path.join(o.directory, "solid", "*.h5")))
     field = o.field or "von_mises"
-    shown = [surface(frames[round(i)], frames[0], o.scale, field)
-             for i in np.linspace(min(1, len(frames) - 1), len(frames) - 1, 4)]
+    shown = [surface(frames[i], frames[0], o.scale, field) for i in pick(len(frames))]
     everything = np.concatenate([s[1] for s in shown])
     lo, hi = everything.min(), np.percentile(everything, 99.5)
     colours = plt.matplotlib.cm.ScalarMappable(plt.Normalize(lo, hi if hi > lo else lo + 1), "viridis")
@@ -82,6 +91,7 @@ def draw_solid(o):
         panel.view_init(*o.view)
         panel.set_title(f"{1e3 * time:.3g} ms", fontsize=9)
         panel.tick_params(labelsize=6)
+    blank_rest(panels, len(shown))
     figure.colorbar(colours, ax=panels, label=field, shrink=0.8)
     figure.savefig(o.picture, dpi=90)
 
@@ -91,7 +101,7 @@ def main():
     parser.add_argument("directory")
     parser.add_argument("picture")
     parser.add_argument("--field", help="a name in output.fields, or of the solid in a scene without fluid; vectors by their length")
-    parser.add_argument("--plane", help="cut a 3D run: x=, y= or z= a position in m")
+    parser.add_argument("--plane", help="cut a 3D run: x=, y= or z= a position in m; not given: the middle of z")
     parser.add_argument("--window", nargs=4, type=float)
     parser.add_argument("--scale", type=float, default=1, help="displacement of the bodies times this")
     parser.add_argument("--view", nargs=2, type=float, default=(25, -60), help="elevation and azimuth of the eye, in degrees")
@@ -102,7 +112,7 @@ def main():
     o.field = o.field or "pressure"
     low, high = read_scene(o.directory)
     frames = sorted(glob.glob(os.path.join(o.directory, "fields", "*.h5")))
-    chosen = [frames[round(i)] for i in np.linspace(1, len(frames) - 1, 4)]
+    chosen = [frames[i] for i in pick(len(frames))]
     cut_axis, position = ("xyz".index(o.plane[0]), float(o.plane[2:])) if o.plane else (2, None)
     axes = [a for a in range(3) if a != cut_axis]
     figure, panels = plt.subplots(2, 2, figsize=(9, 6.4), layout="constrained")
@@ -114,21 +124,23 @@ def main():
             p = np.log10(np.maximum(p, 1e-300) / 1e5) if o.field == "pressure" else p
             s = file["solid_fraction"][:] if "solid_fraction" in file else np.zeros_like(p)
             time = file.attrs["time"] if "time" in file.attrs else 0.0
-        index = 0
+        n = p.shape[2 - cut_axis]  # of a 2D run: 1
+        index = n // 2
         if position is not None:
-            n = p.shape[2 - cut_axis]
             index = int((position - low[cut_axis]) / (high[cut_axis] - low[cut_axis]) * n)
         values.append((np.take(p, index, 2 - cut_axis), np.take(s, index, 2 - cut_axis), float(np.ravel(time)[0])))
     everything = np.concatenate([v[0][v[1] < 0.5].ravel() for v in values])
     lo, hi = everything.min(), everything.max()
-    first = sorted(glob.glob(os.path.join(o.directory, "solid", "*.h5")))[0]
-    rest = polygons(first, axes)
+    if hi - lo < 1e-6 * max(abs(lo), abs(hi)):  # uniform but for roundings
+        lo, hi = lo - 1e-3 * max(abs(lo), 1e-3), hi + 1e-3 * max(abs(hi), 1e-3)
+    solids = sorted(glob.glob(os.path.join(o.directory, "solid", "*.h5")))
+    rest = polygons(solids[0], axes) if solids else []
     for panel, path, (p, s, time) in zip(panels.flat, chosen, values):
         field = np.ma.masked_where(s > 0.999, p)
         image = panel.imshow(field, origin="lower", vmin=lo, vmax=hi, interpolation="nearest",
                              cmap="gray" if o.field == "schlieren" else "inferno",
                              extent=(low[axes[0]], high[axes[0]], low[axes[1]], high[axes[1]]))
-        now = polygons(path.replace("/fields/", "/solid/"), axes)
+        now = polygons(path.replace("/fields/", "/solid/"), axes) if solids else []
         moved = [a + o.scale * (b - a) for a, b in zip(rest, now)]
         panel.add_collection(PolyCollection(moved, facecolors="0.75", edgecolors="0.2", linewidths=0.3))
         if o.window:
@@ -136,6 +148,7 @@ def main():
             panel.set_ylim(o.window[2:])
         panel.set_title(f"{1e3 * time:.2f} ms", fontsize=9)
         panel.tick_params(labelsize=7)
+    blank_rest(panels, len(chosen))
     figure.colorbar(image, ax=panels, label="log10(pressure / bar)" if o.field == "pressure" else o.field, shrink=0.8)
     figure.savefig(o.picture, dpi=90)
 

@@ -70,6 +70,13 @@ void ExactSum::add(ExactSum const& other) {
   if (pending_ >= most_pending) propagate();
 }
 
+void ExactSum::subtract(ExactSum const& other) {
+  for (int k = 0; k != value_limbs; ++k) limb_[k] -= other.limb_[k];
+  limb_[invalid_limb] += other.limb_[invalid_limb];
+  pending_ += other.pending_ + 1;
+  if (pending_ >= most_pending) propagate();
+}
+
 void ExactSum::propagate() {
   carry(limb_);
   pending_ = 0;

@@ -12,6 +12,7 @@ class ExactSum {
  public:
   void add(double value);
   void add(ExactSum const& other);
+  void subtract(ExactSum const& other);
   /// The sum, rounded once to nearest, ties to even; infinite when it leaves the range of a double; never -0.
   double value() const;
 

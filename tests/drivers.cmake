@@ -1,4 +1,6 @@
 brisance_test(drivers_test SOURCES unit/drivers/times_test.cpp unit/drivers/scene_test.cpp LINKS brisance::drivers LABELS unit)
+brisance_test(stage_ledger SOURCES verification/stage_ledger_test.cpp LINKS brisance::drivers RANKS 1 3
+              LABELS "verification;parallel")
 
 # One message and one exit code, whoever fails.
 add_executable(guard_probe support/guard_probe.cpp)

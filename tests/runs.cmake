@@ -29,7 +29,11 @@ brisance_same_digest(bursting-tube ${scenes}/bursting-tube.toml 60 --set "fluid.
 brisance_same_digest(sphere-lift-off ${scenes}/sphere-lift-off.toml 8 --set "fluid.cells=[30, 12, 10]" --set fluid.block=10
                      --set output.interval=0.003)
 brisance_same_digest(breaking-wall ${scenes}/breaking-wall.toml 60 --set output.interval=1e-4)
+set_tests_properties(same_digest.breaking-wall PROPERTIES ENVIRONMENT BREAKING=1)
 brisance_same_digest(bursting-sphere ${scenes}/bursting-sphere.toml 24 --set "fluid.cells=[24, 24, 24]" --set fluid.block=12)
+brisance_same_digest(ledger-by-stages ${scenes}/colliding-fragments.toml 60 --set "fluid.cells=[50, 50]" --set end_time=0.3
+                     --set "output.ledger=\"stage\"")
+set_tests_properties(same_digest.ledger-by-stages PROPERTIES ENVIRONMENT BREAKING=1)
 brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40)
 brisance_same_digest(held-wall ${PROJECT_SOURCE_DIR}/tests/support/scenes/held-wall.toml 80)
 brisance_same_digest(bursting-shell ${scenes}/bursting-shell.toml 80)

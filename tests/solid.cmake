@@ -38,5 +38,6 @@ brisance_test(solid_loads_unit SOURCES unit/core/solid/loads/blast_test.cpp unit
   LINKS brisance::solid LABELS unit)
 brisance_test(solid_loads SOURCES verification/solid/loads_test.cpp verification/solid/lamb_test.cpp
   LINKS brisance::solid LABELS verification)
-brisance_test(solid_contact SOURCES verification/solid/contact_test.cpp LINKS brisance::solid LABELS verification)
+brisance_test(solid_contact SOURCES verification/solid/contact_test.cpp verification/solid/contact_lasting_test.cpp
+              verification/solid/contact_limits_test.cpp LINKS brisance::solid LABELS verification)
 brisance_test(solid_contact_bits SOURCES parallel/contact_test.cpp LINKS brisance::solid RANKS 1 2 3 4 LABELS parallel)

@@ -13,6 +13,10 @@ void Ledger::add(Entry x_entry, Vec3 const& value) {
   for (int d = 0; d < 3; ++d) sums_[at(x_entry) + static_cast<std::size_t>(d)].add(value[d]);
 }
 
+void Ledger::receive(Ledger const& part) {
+  for (std::size_t e = at(Entry::solid_stored) + 1; e < entry_count; ++e) sums_[e].add(part.sums_[e]);
+}
+
 void Ledger::audit(parallel::Comm& comm) {
   comm.sum(std::span(sums_));
   for (std::size_t e = 0; e < entry_count; ++e) {
@@ -52,6 +56,12 @@ void Ledger::audit(parallel::Comm& comm) {
   result_.energy_final = energy_scale > 0 ? energy / energy_scale : energy;
   Real const exchange = change(Entry::fluid_energy) - crossed(Entry::fluid_in_energy) + crossed(Entry::wall_work);
   result_.exchange_energy = max(result_.exchange_energy, relative(exchange, energy_scale));
+}
+
+DefectScales Ledger::scales() const {
+  auto const or_one = [](Real scale) { return scale > 0 ? scale : 1; };
+  return {or_one(max(std::abs(totals_[at(Entry::mass)]), reference_[at(Entry::mass)])),
+          or_one(totals_[at(Entry::momentum_size)] + crossed_[at(Entry::pressure_impulse)]), or_one(largest_scale_)};
 }
 
 std::array<Real, Ledger::stored_size> Ledger::store() const {

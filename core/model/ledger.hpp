@@ -43,6 +43,11 @@ struct Conservation {
   Real exchange_energy = 0, energy = 0, energy_final = 0;
 };
 
+/// What the defects are held against: kg, kg m/s, J; never 0.
+struct DefectScales {
+  Real mass = 1, momentum = 1, energy = 1;
+};
+
 class Ledger {
  public:
   void add(Entry entry, Real value) { sums_[static_cast<std::size_t>(entry)].add(value); }
@@ -50,10 +55,16 @@ class Ledger {
   /// Adds the three components starting at the x entry.
   void add(Entry x_entry, Vec3 const& value);
 
+  /// Local. Adds what came to `part`, and none of its totals: a count of a part of the system in the middle of a step.
+  void receive(Ledger const& part);
+  /// Local. What was added to an entry since the last audit, on this rank.
+  parallel::ExactSum const& added(Entry entry) const { return sums_[static_cast<std::size_t>(entry)]; }
+
   /// Collective. Reduces what was added since the last audit and updates the defects; the first audit sets the
   /// reference.
   void audit(parallel::Comm& comm);
   Conservation const& conservation() const { return result_; }
+  DefectScales scales() const;
   Real total(Entry entry) const { return totals_[static_cast<std::size_t>(entry)]; }
   /// What came of it since the start of the scene, of the entries that are not totals.
   Real received(Entry entry) const { return crossed_[static_cast<std::size_t>(entry)]; }

@@ -6,8 +6,13 @@ void Plan::effect(std::string name, std::function<std::size_t()> bytes) {
   effects_.push_back({std::move(name), 0, std::move(bytes)});
 }
 
-void Plan::at(Stage stage, std::function<void(Clock const&)> run) {
-  tasks_[static_cast<std::size_t>(stage)].push_back({effects_.size() - 1, std::move(run)});
+void Plan::at(Stage stage, std::function<void(Clock const&)> run, std::function<Part(Clock const&)> part) {
+  tasks_[static_cast<std::size_t>(stage)].push_back({effects_.size() - 1, std::move(run), std::move(part)});
+}
+
+void Plan::account(std::function<void(Ledger&)> add) {
+  if (stages_) stages_->watch(effects_.back().name.starts_with("solid.") ? Domain::solid : Domain::flow, add);
+  accounts_.push_back(std::move(add));
 }
 
 char const* name(Stage stage) {

@@ -2,6 +2,7 @@
 // shown.
 #pragma once
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "core/model/clock.hpp"
 #include "core/model/ledger.hpp"
 #include "core/model/stage.hpp"
+#include "core/model/stage_ledger.hpp"
 #include "parallel/archive.hpp"
 
 namespace brisance {
@@ -25,6 +27,7 @@ class Plan {
   struct Task {
     std::size_t effect;
     std::function<void(Clock const&)> run;
+    std::function<Part(Clock const&)> part;  ///< what its changes are charged to; null: to the part of its stage
   };
   struct Limit {
     std::string name;
@@ -32,9 +35,13 @@ class Plan {
     /// Of an effect that can sub-cycle: its limit and the smallest of the others, both over all ranks, -> the step it
     /// really asks for. Null: the limit itself.
     std::function<Real(Real own, Real others)> relax;
-    /// Does it bind the sub-steps of the solid instead of the whole step? So do those of its effects, but for contact:
-    /// it looks one step ahead, at who may meet in it.
-    bool of_solid() const { return name.starts_with("solid.") && name != "solid.contact"; }
+    /// Of an effect of the solid that looks ahead, where the solid takes sub-steps. They stand for `seconds` then:
+    /// the time over which it can look ahead at all, and the sub-step that it asks for when it looks again after
+    /// `horizon` s. Local both.
+    std::function<Real()> sight;
+    std::function<Real(Real horizon)> sub_step;
+    /// Does it bind the sub-steps of the solid instead of the whole step? So do those of its effects.
+    bool of_solid() const { return name.starts_with("solid.") && !sight; }
   };
   /// What an effect keeps of physics. `write` and `read` are collective; `save` and `restore` serve rejected pairs.
   struct Keep {
@@ -63,14 +70,19 @@ class Plan {
   /// Starts the registrations of one effect (scene section, e.g. "fluid.euler"); `bytes` tells what it holds on this
   /// rank.
   void effect(std::string name, std::function<std::size_t()> bytes);
-  void at(Stage stage, std::function<void(Clock const&)> run);
+  void at(Stage stage, std::function<void(Clock const&)> run, std::function<Part(Clock const&)> part = nullptr);
   void limit(std::string name, std::function<Real(Clock const&)> seconds,
              std::function<Real(Real own, Real others)> relax = nullptr) {
-    limits_.push_back({std::move(name), std::move(seconds), std::move(relax)});
+    limits_.push_back({std::move(name), std::move(seconds), std::move(relax), nullptr, nullptr});
+  }
+  /// The limit of an effect of the solid that looks ahead.
+  void limit_ahead(std::string name, std::function<Real(Clock const&)> seconds, std::function<Real()> sight,
+                   std::function<Real(Real horizon)> sub_step) {
+    limits_.push_back({std::move(name), std::move(seconds), nullptr, std::move(sight), std::move(sub_step)});
   }
   void health(std::function<Verdict(Clock const&)> judge) { health_.push_back(std::move(judge)); }
   void keep(Keep k) { kept_.push_back(std::move(k)); }
-  void account(std::function<void(Ledger&)> add) { accounts_.push_back(std::move(add)); }
+  void account(std::function<void(Ledger&)> add);
   void table(Table t) { tables_.push_back(std::move(t)); }
   void particle_field(std::string name, std::function<void(std::span<double>)> fill) {
     particle_fields_.push_back({std::move(name), std::move(fill)});
@@ -79,6 +91,10 @@ class Plan {
   void remark(std::string text) { remarks_.push_back(std::move(text)); }
   /// What a user should know of the effect after the run. Collective: a line on rank 0, or nothing.
   void finding(std::function<std::string()> tell) { findings_.push_back(std::move(tell)); }
+  /// From now on accounts are taken stage by stage; to be called before any effect joins.
+  void charge_stages() { stages_.emplace(); }
+  StageLedger* stages() { return stages_ ? &*stages_ : nullptr; }  ///< null: not asked for
+  StageLedger const* stages() const { return stages_ ? &*stages_ : nullptr; }
   /// During Stage::fracture, on all ranks alike: the law of force has changed, so Stage::forces and Stage::contact run
   /// once more before the next step.
   void ask_for_forces() { forces_asked_ = true; }
@@ -106,6 +122,7 @@ class Plan {
   std::vector<std::function<Verdict(Clock const&)>> health_;
   std::vector<Keep> kept_;
   std::vector<std::function<void(Ledger&)>> accounts_;
+  std::optional<StageLedger> stages_;
   std::vector<Table> tables_;
   std::vector<ParticleField> particle_fields_;
   std::vector<std::string> remarks_;

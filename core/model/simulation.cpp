@@ -1,5 +1,6 @@
 #include "core/model/simulation.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -14,7 +15,7 @@ constexpr Real smallest_retry_factor = 0x1p-20;
 
 // The coupled step (theory/coupling.md 1.8, 5). Stages without tasks are empty loops.
 void Simulation::step() {
-  run(Stage::source);
+  run_flow(Stage::source, Part::sources);
   set_off();
   run(Stage::predict);
   switch (control_.coupling) {
@@ -30,9 +31,9 @@ void Simulation::step() {
   }
   run(Stage::flow_update);
   run(Stage::mix);
-  run(Stage::fill);
-  run(Stage::source_again);
-  run(Stage::open);
+  run_flow(Stage::fill, Part::mixing);
+  run_flow(Stage::source_again, Part::sources);
+  run_flow(Stage::open, Part::fracture);
   clock_.time += clock_.dt;
   clock_.step += 1;
 }
@@ -63,9 +64,9 @@ void Simulation::step_explicit() {
 }
 
 void Simulation::move_flow() {
-  run(Stage::diffuse);
-  run(Stage::sweeps);
-  run(Stage::diffuse_again);
+  run_flow(Stage::diffuse, Part::diffusion);
+  run(Stage::sweeps);  // each names its part
+  run_flow(Stage::diffuse_again, Part::diffusion);
 }
 
 void Simulation::set_off() {
@@ -86,11 +87,14 @@ void Simulation::move_solid() {
     run(Stage::forces);
     run(Stage::contact);
     run(Stage::kick_again);
+    charge(Part::motion, Domain::solid);
+    if (plan_.tasks(Stage::fracture).empty()) continue;
     run(Stage::fracture);
     if (plan_.take_asked_forces()) {  // both kicks that meet at a break see the links of their own side of it
       run(Stage::forces);
       run(Stage::contact);
     }
+    charge(Part::fracture, Domain::solid);
   }
   clock_ = whole;
 }
@@ -101,12 +105,24 @@ void Simulation::run(Stage stage) {
     auto const start = Timer::now();
     task.run(clock_);
     plan_.effects()[task.effect].wall_s += std::chrono::duration<Real>(Timer::now() - start).count();
+    if (task.part && plan_.stages()) charge(task.part(clock_), Domain::flow);
   }
+}
+
+void Simulation::charge(Part part, Domain domain) {
+  if (StageLedger* const stages = plan_.stages()) stages->charge(part, domain, ledger_);
+}
+
+void Simulation::run_flow(Stage stage, Part part) {
+  run(stage);
+  if (!plan_.tasks(stage).empty()) charge(part, Domain::flow);
 }
 
 Real Simulation::choose_step(std::string& limited_by, bool& at_output) {
   std::vector<Real> seconds;
-  for (Plan::Limit const& limit : plan_.limits()) seconds.push_back(limit.seconds(clock_));
+  bool const sub_cycled = control_.most_sub_steps > 1;
+  for (Plan::Limit const& limit : plan_.limits())
+    seconds.push_back(sub_cycled && limit.sight ? limit.sight() / control_.steps_per_pair : limit.seconds(clock_));
   comm_.min(std::span(seconds));
   solid_limit_ = std::numeric_limits<Real>::max();
   for (std::size_t i = 0; i < seconds.size(); ++i)
@@ -123,6 +139,13 @@ Real Simulation::choose_step(std::string& limited_by, bool& at_output) {
   Real dt = std::numeric_limits<Real>::max();
   for (std::size_t i = 0; i < seconds.size(); ++i)
     if (seconds[i] < dt) dt = seconds[i], limited_by = plan_.limits()[i].name;
+  for (Plan::Limit const& limit : plan_.limits()) {
+    if (!sub_cycled || !limit.sight) continue;
+    Real own = limit.sub_step(dt * control_.steps_per_pair);
+    comm_.min(std::span(&own, 1));
+    solid_limit_ = min(solid_limit_, own);
+    if (own * control_.most_sub_steps < dt) dt = own * control_.most_sub_steps, limited_by = limit.name;
+  }
   dt *= retry_factor_;
   if (retry_factor_ < 1) limited_by = "retry";
   // End time and output times are hit exactly; a pair is shortened, never one half of it.
@@ -169,6 +192,7 @@ bool Simulation::healthy(std::string& message) {
 void Simulation::pair() {
   for (Plan::Keep const& k : plan_.kept()) k.save();
   Clock const start = clock_;
+  if (plan_.stages()) plan_.stages()->begin(ledger_);
   auto const ledger_start = ledger_;
   std::string limited_by;
   bool at_output = false;
@@ -193,6 +217,9 @@ void Simulation::pair() {
       statistics_.dt_min = statistics_.dt_max == 0 ? clock_.dt : min(statistics_.dt_min, clock_.dt);
       statistics_.dt_max = max(statistics_.dt_max, clock_.dt);
       statistics_.limited_by[limited_by] += control_.steps_per_pair;
+      statistics_.sub_steps_min =
+          statistics_.sub_steps_max == 0 ? clock_.sub_steps : std::min(statistics_.sub_steps_min, clock_.sub_steps);
+      statistics_.sub_steps_max = std::max(statistics_.sub_steps_max, clock_.sub_steps);
       statistics_.solid_steps += control_.steps_per_pair * clock_.sub_steps;
       retry_factor_ = min(1, 2 * retry_factor_);
       audit();
@@ -208,6 +235,7 @@ void Simulation::pair() {
     for (Plan::Keep const& k : plan_.kept()) k.restore();
     clock_ = start;
     ledger_ = ledger_start;
+    if (plan_.stages()) plan_.stages()->restore();
     retry_factor_ *= 0.5;
     dt *= 0.5;
     limited_by = "retry";
@@ -218,6 +246,7 @@ void Simulation::pair() {
 void Simulation::audit() {
   for (auto const& account : plan_.accounts()) account(ledger_);
   ledger_.audit(comm_);
+  if (plan_.stages()) plan_.stages()->audit(comm_);
 }
 
 parallel::Digest Simulation::digest() {
@@ -238,6 +267,8 @@ void Simulation::write(parallel::ArchiveWriter& file) {
   file.attribute("dt_max", statistics_.dt_max);
   file.attribute("retries", statistics_.retries);
   file.attribute("solid_steps", statistics_.solid_steps);
+  file.attribute("sub_steps_min", std::int64_t{statistics_.sub_steps_min});
+  file.attribute("sub_steps_max", std::int64_t{statistics_.sub_steps_max});
   std::string limits;
   for (auto const& [limit, steps] : statistics_.limited_by) limits += limit + "=" + std::to_string(steps) + ";";
   file.attribute("limited_by", limits);
@@ -245,6 +276,15 @@ void Simulation::write(parallel::ArchiveWriter& file) {
   parallel::Range const all{0, comm_.rank() == 0 ? static_cast<std::int64_t>(account.size()) : 0};
   file.rows("ledger", static_cast<std::int64_t>(account.size()), 1, std::span(&all, 1),
             std::span(account).first(static_cast<std::size_t>(all.count)));
+  if (StageLedger const* const stages = this->stages()) {
+    parallel::Range const rows{0, comm_.rank() == 0 ? static_cast<std::int64_t>(part_count) : 0};
+    auto const mine = std::span(&rows, rows.count > 0 ? 1 : 0);
+    auto limbs = stages->store_limbs();
+    auto sizes = stages->store_sizes();
+    if (rows.count == 0) limbs.clear(), sizes.clear();
+    file.rows_int("stage_sums", part_count, StageLedger::limbs_per_row, mine, limbs);
+    file.rows("stage_sizes", part_count, StageLedger::sizes_per_row, mine, sizes);
+  }
   for (Plan::Keep const& k : plan_.kept()) k.write(file);
 }
 
@@ -253,8 +293,13 @@ void Simulation::read(parallel::ArchiveReader& file) {
   clock_.step = file.integer("step");
   retry_factor_ = file.real("retry_factor");
   outputs_done_ = file.integer("outputs_done");
-  statistics_ = {file.real("dt_min"),     file.real("dt_max"),         {},
-                 file.integer("retries"), file.integer("solid_steps"), {}};
+  statistics_ = {};
+  statistics_.dt_min = file.real("dt_min");
+  statistics_.dt_max = file.real("dt_max");
+  statistics_.retries = file.integer("retries");
+  statistics_.solid_steps = file.integer("solid_steps");
+  statistics_.sub_steps_min = static_cast<int>(file.integer("sub_steps_min"));
+  statistics_.sub_steps_max = static_cast<int>(file.integer("sub_steps_max"));
   std::string const limits = file.text("limited_by");
   for (std::size_t at = 0; at < limits.size();) {
     std::size_t const equal = limits.find('=', at), stop = limits.find(';', equal);
@@ -266,6 +311,12 @@ void Simulation::read(parallel::ArchiveReader& file) {
   std::array<Real, Ledger::stored_size> account{};
   std::copy(rows.begin(), rows.end(), account.begin());
   ledger_.restore(account);
+  // A checkpoint of a run that did not ask for them has none: they count from here on then.
+  if (StageLedger* const stages = plan_.stages(); stages && file.has("stage_sums")) {
+    parallel::Range const rows{0, static_cast<std::int64_t>(part_count)};
+    auto const limbs = file.rows_int("stage_sums", StageLedger::limbs_per_row, std::span(&rows, 1));
+    stages->read(limbs, file.rows("stage_sizes", StageLedger::sizes_per_row, std::span(&rows, 1)));
+  }
   for (Plan::Keep const& k : plan_.kept()) k.read(file);
 }
 

@@ -26,6 +26,7 @@ struct StepStatistics {
   std::map<std::string, std::int64_t> limited_by;  ///< steps per limit
   std::int64_t retries = 0;                        ///< rejected pairs
   std::int64_t solid_steps = 0;                    ///< sub-steps of the solid
+  int sub_steps_min = 0, sub_steps_max = 0;        ///< of a step
   std::string last_rejection;                      ///< why and where
 };
 
@@ -40,7 +41,8 @@ class Simulation {
 
   Clock const& clock() const { return clock_; }
   Ledger const& ledger() const { return ledger_; }
-  std::string const& limited_by() const { return limited_by_; }  ///< what limited the last pair
+  StageLedger const* stages() const { return std::as_const(plan_).stages(); }  ///< null: not asked for
+  std::string const& limited_by() const { return limited_by_; }                ///< what limited the last pair
   StepStatistics const& statistics() const { return statistics_; }
   /// True when the last pair ended on a multiple of the output interval.
   bool at_output_time() const { return at_output_; }
@@ -60,6 +62,9 @@ class Simulation {
   void move_flow();
   void move_solid();
   void run(Stage stage);
+  /// What the domain gained or lost against its account since the last call belongs to this part of the step.
+  void charge(Part part, Domain domain);
+  void run_flow(Stage stage, Part part);
   Real choose_step(std::string& limited_by, bool& at_output);
   /// Sub-steps of the solid in a step of `dt`.
   int sub_steps(Real dt) const;

@@ -239,6 +239,8 @@ class Solid {
   Reactions take_reactions();
   /// dt sum (F v_half + M omega_half) of the external load over owned particles, J.
   void add_load_work(Real dt, parallel::ExactSum& to) const;
+  /// dt sum F of the same, N s.
+  void add_load_impulse(Real dt, std::span<parallel::ExactSum, 3> to) const;
   void digest(parallel::Digest& to) const;
 
   /// State of one particle in a checkpoint: pose 7, motion 6, internal wrench 6, load 6, half velocities 6.

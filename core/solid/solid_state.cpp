@@ -151,6 +151,11 @@ void Solid::add_load_work(Real dt, parallel::ExactSum& to) const {
     to.add(dt * (dot(load_[at(l)].force, half_[at(l)].v) + dot(load_[at(l)].torque, half_[at(l)].omega)));
 }
 
+void Solid::add_load_impulse(Real dt, std::span<parallel::ExactSum, 3> to) const {
+  for (Index l = 0; l < owned_; ++l)
+    for (int d = 0; d < 3; ++d) to[static_cast<std::size_t>(d)].add(dt * load_[at(l)].force[d]);
+}
+
 void Solid::digest(parallel::Digest& to) const {
   std::array<double, 13> bits{};
   for (Index l = 0; l < owned_; ++l) {

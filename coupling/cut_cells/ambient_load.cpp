@@ -1,9 +1,12 @@
 // Loads relative to the ambient pressure p_a: the fluid gives all of its pressure, the solid feels the part beyond p_a,
 // as a structure that was built in still air. What lies between, p_a times the volume that the bodies sweep, goes to
 // the account, so that it closes to the bit.
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "coupling/cut_cells/cut_cells.hpp"
+#include "parallel/error.hpp"
 
 namespace brisance::coupling {
 
@@ -26,24 +29,30 @@ Vec3 CutCells::force_on_solid(Real chi, Vec3 const& pressure, Vec3 const& area) 
   return force;
 }
 
+Vec3 CutCells::velocity_in_step(Piece const& piece) const {
+  GlobalId const id = record_.triangles[static_cast<std::size_t>(piece.triangle)].id;
+  auto const& moved = next_.triangles;
+  auto const at = std::lower_bound(moved.begin(), moved.end(), id,
+                                   [](SurfaceTriangle const& t, GlobalId other) { return t.id < other; });
+  require(at != moved.end() && at->id == id, Failure::internal,
+          "triangle " + std::to_string(id) + " of the wall is out of sight after a step");
+  return next_.wall_velocity(static_cast<Index>(at - moved.begin()), piece.bary_centroid);
+}
+
 void CutCells::ambient_account(Real dt) {
-  fluid::Grid const& grid = flow_.grid();
-  for (CutCell const& cut : next_.geometry.cells) {
+  // The boundary that bore the loads.
+  bool const at_start = scheme_ == TimeCoupling::explicit_load;
+  WallRecord const& loaded = at_start ? record_ : next_;
+  for (CutCell const& cut : loaded.geometry.cells) {
     if (!owned(cut.cell)) continue;
-    fluid::Block const& block = *std::as_const(flow_).find(grid.block_of(cut.cell));
-    CellIndex const first = block.first();
-    WallBlock const& wall = sweeper_.blocks().at(block.id());
-    Vec3 pressure;
-    for (int d = 0; d < grid.dimension; ++d)
-      pressure[d] = wall.pressure[static_cast<std::size_t>(d)]
-                                 [wall.cell(cut.cell[0] - first[0], cut.cell[1] - first[1], cut.cell[2] - first[2])];
+    Vec3 const pressure = swept_pressure(cut.cell);
     for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
-      Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
+      Piece const& piece = loaded.geometry.pieces[static_cast<std::size_t>(f)];
       Real const chi = piece_factor_[static_cast<std::size_t>(f)];
-      Vec3 const given{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y,
-                       -chi * pressure.z * piece.area.z};
-      Vec3 const beyond = force_on_solid(chi, pressure, piece.area) - given;
-      Real const work = dt * dot(beyond, next_.wall_velocity(piece.triangle, piece.bary_centroid));
+      Vec3 const beyond = force_on_solid(chi, pressure, piece.area) - force_of_gas(chi, pressure, piece.area);
+      Vec3 const velocity =
+          at_start ? velocity_in_step(piece) : loaded.wall_velocity(piece.triangle, piece.bary_centroid);
+      Real const work = dt * dot(beyond, velocity);
       for (int d = 0; d < 3; ++d) ambient_given_[static_cast<std::size_t>(d)].add(dt * beyond[d]);
       ambient_given_[3].add(work);
       wall_work_.add(-work);

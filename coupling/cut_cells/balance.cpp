@@ -95,6 +95,33 @@ State CutCells::content_before(CellIndex c) const {
   return u;
 }
 
+template <class Visit>
+void CutCells::for_faces_of_sides(int d, Visit const& visit) const {
+  fluid::Grid const& grid = flow_.grid();
+  auto const dir = static_cast<std::size_t>(d);
+  if (grid.periodic[dir]) return;
+  std::vector<SideFace> faces;
+  for (auto const& [id, wall] : sweeper_.blocks()) {
+    CellIndex const first = std::as_const(flow_).find(id)->first();
+    std::size_t const t0 = d == 0 ? 1 : 0, t1 = d == 2 ? 1 : 2;
+    for (int side = 0; side < 2; ++side) {
+      Index const cell = side == 0 ? 0 : wall.size[dir] - 1;
+      if (first[dir] + cell != (side == 0 ? 0 : grid.cells[dir] - 1)) continue;
+      faces.clear();
+      for (Index b = 0; b < wall.size[t1]; ++b)
+        for (Index a = 0; a < wall.size[t0]; ++a) {
+          CellIndex c{};
+          c[dir] = cell, c[t0] = a, c[t1] = b;
+          CellIndex face = c;
+          face[dir] += side;
+          faces.push_back(
+              {{first[0] + c[0], first[1] + c[1], first[2] + c[2]}, wall.face(d, face[0], face[1], face[2])});
+        }
+      visit(wall, side, std::span<SideFace const>(faces));
+    }
+  }
+}
+
 void CutCells::update_contents(Real dt) {
   fluid::Grid const& grid = flow_.grid();
   transfers();
@@ -111,13 +138,33 @@ void CutCells::update_contents(Real dt) {
   std::sort(band.begin(), band.end());
   band.erase(std::unique(band.begin(), band.end()), band.end());
   contents_.clear();
-  for (GlobalId const id : band) contents_.push_back({id, content_before(cell_from_id(grid, id))});
+  balanced_.clear();
+  for (GlobalId const id : band) {
+    balanced_.push_back(cell_from_id(grid, id));
+    contents_.push_back({id, content_before(balanced_.back())});
+  }
+  if (stage_account_) stage_account_->begin_balance(balanced_, record_, counted());
+
+  pass_transfers(dt);
+  charge(Part::transfers);
+  for (int d = 0; d < grid.dimension; ++d) {
+    pass_fluxes(d, dt);
+    charge(sweep_part(d));
+  }
+  if (viscous_) {
+    pass_friction();
+    charge(Part::diffusion);
+  }
+  pass_exchange(dt);
+  charge(Part::wall);
+}
+
+void CutCells::pass_transfers(Real dt) {
   auto const content = [&](GlobalId id) -> State* {
     auto const at = std::lower_bound(contents_.begin(), contents_.end(), id,
                                      [](Content const& c, GlobalId i) { return c.cell < i; });
     return at != contents_.end() && at->cell == id ? &at->amount : nullptr;
   };
-
   // In the order of pieces, which is that of cells and triangles on every rank.
   for (Transfer const& t : transfers_) {
     State u = swept_states_[swept_states_.slot(t.state)];
@@ -131,36 +178,85 @@ void CutCells::update_contents(Real dt) {
     if (t.to < 0 || t.from < 0)
       for (std::size_t q = 0; q < 5; ++q) crossed_[q].add((t.to < 0 ? -t.volume : t.volume) * u[q]);
   }
+}
 
-  for (Content& c : contents_) {
-    CellIndex const cell = cell_from_id(grid, c.cell);
-    Block const& block = *flow_.find(grid.block_of(cell));
-    CellIndex const first = block.first();
-    CellIndex const l{cell[0] - first[0], cell[1] - first[1], cell[2] - first[2]};
-    WallBlock const& wall = sweeper_.blocks().at(block.id());
-    for (int d = 0; d < grid.dimension; ++d) {
-      auto const dir = static_cast<std::size_t>(d);
+void CutCells::pass_fluxes(int d, Real dt) {
+  auto const dir = static_cast<std::size_t>(d);
+  for (std::size_t n = 0; n < contents_.size(); ++n) {
+    CellIndex const cell = balanced_[n];
+    State& amount = contents_[n].amount;
+    auto const [wall, local] = wall_block_of(cell);
+    for (int side = 0; side < 2; ++side) {
+      Real const share = side == 0 ? dt : -dt;
+      if (linear_) add(amount, share, profile_flux(cell, d, side));
+      Real const aperture = next_.aperture(cell, d, side);
+      if (aperture == 0) continue;
+      CellIndex face = local;
+      face[dir] += side;
+      add(amount, share * aperture, wall->flux[dir][wall->face(d, face[0], face[1], face[2])]);
+    }
+  }
+  for_faces_of_sides(d, [&](WallBlock const& wall, int side, std::span<SideFace const> faces) {
+    Real const share = side == 0 ? dt : -dt;
+    State sum{};
+    Real impulse = 0;
+    for (SideFace const& face : faces) {
+      if (linear_) add(sum, share, profile_flux(face.cell, d, side));
+      Real const area = next_.aperture(face.cell, d, side);
+      if (area == 0) continue;
+      State const& f = wall.flux[dir][face.at];
+      add(sum, share * area, f);
+      impulse += dt * area * std::abs(f[1 + dir]);
+    }
+    for (std::size_t q = 0; q < 5; ++q) crossed_[q].add(sum[q]);
+    pressure_impulse_.add(impulse);
+    exchanged_energy_.add(std::abs(sum[4]));
+  });
+}
+
+void CutCells::pass_friction() {
+  for (int d = 0; d < flow_.grid().dimension; ++d) {
+    auto const dir = static_cast<std::size_t>(d);
+    for (std::size_t n = 0; n < contents_.size(); ++n) {
+      auto const [wall, local] = wall_block_of(balanced_[n]);
       for (int side = 0; side < 2; ++side) {
-        CellIndex face = l;
-        face[dir] += side;
-        Real const aperture = next_.aperture(cell, d, side);
-        if (linear_) add(c.amount, side == 0 ? dt : -dt, profile_flux(cell, d, side));
+        Real const aperture = next_.aperture(balanced_[n], d, side);
         if (aperture == 0) continue;
-        std::size_t const at = wall.face(d, face[0], face[1], face[2]);
-        add(c.amount, (side == 0 ? dt : -dt) * aperture, wall.flux[dir][at]);
-        if (viscous_) add_viscous(c.amount, (side == 0 ? -1 : 1) * aperture, wall.viscous[dir][at]);
+        CellIndex face = local;
+        face[dir] += side;
+        add_viscous(contents_[n].amount, (side == 0 ? -1 : 1) * aperture,
+                    wall->viscous[dir][wall->face(d, face[0], face[1], face[2])]);
       }
     }
-    Index const cut_index = next_.cut_index(cell);
+    for_faces_of_sides(d, [&](WallBlock const& wall, int side, std::span<SideFace const> faces) {
+      State sum{};
+      for (SideFace const& face : faces)
+        if (Real const area = next_.aperture(face.cell, d, side); area != 0)
+          add_viscous(sum, (side == 0 ? -1 : 1) * area, wall.viscous[dir][face.at]);
+      for (std::size_t q = 0; q < 5; ++q) crossed_[q].add(sum[q]);
+      exchanged_energy_.add(std::abs(sum[4]));
+    });
+  }
+}
+
+void CutCells::pass_exchange(Real dt) {
+  for (std::size_t n = 0; n < contents_.size(); ++n) {
+    Index const cut_index = next_.cut_index(balanced_[n]);
     if (cut_index < 0) continue;
     CutCell const& cut = next_.cut(cut_index);
     if (scheme_ == TimeCoupling::explicit_load)
-      exchange_of_start(cut, dt, c.amount);
+      exchange_of_start(cut, dt, contents_[n].amount);
     else
-      exchange_at_end(cut, dt, c.amount);
+      exchange_at_end(cut, dt, contents_[n].amount);
   }
   if (scheme_ == TimeCoupling::explicit_load) exchange_outside(dt);
-  boundary_account(dt);
+  if (ambient_pressure_) ambient_account(dt);
+}
+
+std::pair<WallBlock const*, CellIndex> CutCells::wall_block_of(CellIndex c) const {
+  Block const& block = *std::as_const(flow_).find(flow_.grid().block_of(c));
+  CellIndex const first = block.first();
+  return {&sweeper_.blocks().at(block.id()), {c[0] - first[0], c[1] - first[1], c[2] - first[2]}};
 }
 
 void CutCells::take(Vec3 const& force, Real heat, Vec3 const& velocity, Real dt, State& amount) {
@@ -202,7 +298,7 @@ void CutCells::exchange_at_end(CutCell const& cut, Real dt, State& amount) {
     Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
     Real const chi = piece_factor_[static_cast<std::size_t>(f)];
     // The same numbers as the force on the solid, with the opposite sign.
-    Vec3 force{-chi * pressure.x * piece.area.x, -chi * pressure.y * piece.area.y, -chi * pressure.z * piece.area.z};
+    Vec3 force = force_of_gas(chi, pressure, piece.area);
     PieceFriction const friction = viscous_ ? (*viscous_)[static_cast<std::size_t>(f)] : PieceFriction{};
     if (viscous_) force += friction.force;
     take(force, friction.heat, next_.wall_velocity(piece.triangle, piece.bary_centroid), dt, amount);
@@ -240,42 +336,19 @@ void CutCells::exchange_outside(Real dt) {
   }
 }
 
-void CutCells::boundary_account(Real dt) {
-  fluid::Grid const& grid = flow_.grid();
-  for (auto const& [id, wall] : sweeper_.blocks()) {
-    Block const& block = *flow_.find(id);
-    CellIndex const first = block.first();
-    for (int d = 0; d < grid.dimension; ++d) {
-      auto const dir = static_cast<std::size_t>(d);
-      if (grid.periodic[dir]) continue;
-      std::size_t const t0 = d == 0 ? 1 : 0, t1 = d == 2 ? 1 : 2;
-      for (int side = 0; side < 2; ++side) {
-        Index const cell = side == 0 ? 0 : wall.size[dir] - 1;
-        if (first[dir] + cell != (side == 0 ? 0 : grid.cells[dir] - 1)) continue;
-        State sum{};
-        Real impulse = 0;
-        for (Index b = 0; b < wall.size[t1]; ++b)
-          for (Index a = 0; a < wall.size[t0]; ++a) {
-            CellIndex c{};
-            c[dir] = cell, c[t0] = a, c[t1] = b;
-            CellIndex face = c;
-            face[dir] += side;
-            CellIndex const global{first[0] + c[0], first[1] + c[1], first[2] + c[2]};
-            if (linear_) add(sum, side == 0 ? dt : -dt, profile_flux(global, d, side));
-            Real const area = next_.aperture(global, d, side);
-            if (area == 0) continue;
-            State const& f = wall.flux[dir][wall.face(d, face[0], face[1], face[2])];
-            add(sum, (side == 0 ? dt : -dt) * area, f);
-            if (viscous_)
-              add_viscous(sum, (side == 0 ? -1 : 1) * area, wall.viscous[dir][wall.face(d, face[0], face[1], face[2])]);
-            impulse += dt * area * std::abs(f[1 + dir]);
-          }
-        for (std::size_t q = 0; q < 5; ++q) crossed_[q].add(sum[q]);
-        pressure_impulse_.add(impulse);
-        exchanged_energy_.add(std::abs(sum[4]));
-      }
-    }
-  }
+Amounts CutCells::counted() const {
+  Amounts sums;
+  for (Content const& c : contents_)
+    for (std::size_t q = 0; q < 5; ++q) sums[q].add(c.amount[q]);
+  subtract(sums, crossed_);
+  for (std::size_t d = 0; d < 3; ++d) sums[1 + d].subtract(ambient_given_[d]);
+  sums[4].subtract(ambient_given_[3]);
+  sums[4].add(wall_heat_);
+  return sums;
+}
+
+void CutCells::charge(Part part) {
+  if (stage_account_) stage_account_->charge(part, counted());
 }
 
 }  // namespace brisance::coupling

@@ -90,8 +90,14 @@ fluid::ViscousWalls& CutCells::add_viscosity(fluid::Transport const& transport) 
 }
 
 void CutCells::join(Plan& plan) {
-  plan.effect("coupling.cut_cells",
-              [this] { return record_.bytes() + next_.bytes() + sweeper_.bytes() + at_start_.bytes(); });
+  plan.effect("coupling.cut_cells", [this] {
+    return record_.bytes() + next_.bytes() + sweeper_.bytes() + at_start_.bytes() +
+           (stage_account_ ? stage_account_->bytes() : 0);
+  });
+  if (StageLedger* const stages = plan.stages()) {
+    stage_account_ = std::make_unique<StageAccount>(*stages, flow_, sweeper_);
+    stages->on_flow_charge([this](Part part) { stage_account_->look(part); });
+  }
   plan.at(Stage::predict, [this](Clock const& c) { begin_step(c); });
   plan.at(Stage::boundary, [this](Clock const&) { new_geometry(); });
   plan.at(Stage::load_solid, [this, &plan](Clock const& c) {
@@ -105,7 +111,6 @@ void CutCells::join(Plan& plan) {
     if constexpr (check_identities) require_identities(c);
     update_contents(c.dt);
   });
-  if (ambient_pressure_) plan.at(Stage::flow_update, [this](Clock const& c) { ambient_account(c.dt); });
   plan.at(Stage::mix, [this](Clock const&) { mix(); });
   plan.at(Stage::fill, [this](Clock const&) { fill(); });
   if (solid_.damageable()) {

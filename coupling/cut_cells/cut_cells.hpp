@@ -11,6 +11,7 @@
 #include "coupling/coupling_config.hpp"
 #include "coupling/cut_cells/light_solid.hpp"
 #include "coupling/cut_cells/mixing.hpp"
+#include "coupling/cut_cells/stage_account.hpp"
 #include "coupling/cut_cells/start_exchange.hpp"
 #include "coupling/cut_cells/viscous_wall.hpp"
 #include "coupling/cut_cells/wall_cost.hpp"
@@ -101,10 +102,33 @@ class CutCells : public Effect {
   bool gather_broken();
   /// Collective. Cuts the cells by the predicted boundary; false when it is not closed around some cell of some rank.
   bool build_next();
-  void boundary_account(Real dt);
+  /// The balance, a file's worth of steps: transfers, fluxes along an axis, friction, exchange with the wall.
+  void pass_transfers(Real dt);
+  void pass_fluxes(int d, Real dt);
+  void pass_friction();
+  void pass_exchange(Real dt);
+  /// The block with walls that holds an owned cell, and the cell in it.
+  std::pair<WallBlock const*, CellIndex> wall_block_of(CellIndex c) const;
+  /// A face on a side of the domain: the cell inside, the place in the arrays of its block.
+  struct SideFace {
+    CellIndex cell;
+    std::size_t at;
+  };
+  /// Calls visit(wall block, side, faces) for the sides of the domain across `d`.
+  template <class Visit>
+  void for_faces_of_sides(int d, Visit const& visit) const;
+  /// What the balance holds, less what came from outside since the last audit.
+  Amounts counted() const;
+  /// The change of that since the last call is the work of `part`.
+  void charge(Part part);
   /// Loads relative to the ambient pressure: the difference from what the fluid gives goes to the account.
   void ambient_account(Real dt);
-  /// Force on the solid where the fluid exerts `chi` times `pressure` on a piece, N.
+  /// Velocity in this step of the wall where a piece of the present boundary was, m/s.
+  Vec3 velocity_in_step(Piece const& piece) const;
+  /// What the fluid gives where it exerts `chi` times `pressure` on a piece, and what the solid feels of it, N.
+  static Vec3 force_of_gas(Real chi, Vec3 const& pressure, Vec3 const& area) {
+    return {-chi * pressure.x * area.x, -chi * pressure.y * area.y, -chi * pressure.z * area.z};
+  }
   Vec3 force_on_solid(Real chi, Vec3 const& pressure, Vec3 const& area) const;
   void require_identities(Clock const& clock) const;  ///< debug builds
   void rebuild_record();
@@ -136,6 +160,7 @@ class CutCells : public Effect {
 
   std::vector<Content> kept_, kept_saved_;  ///< contents of covered cells, by id
   std::vector<Content> contents_;           ///< of the cells the balance rewrites, by id
+  std::vector<CellIndex> balanced_;         ///< these cells
   std::vector<Real> piece_factor_;          ///< chi of each piece of next_
   std::unique_ptr<ViscousWall> viscous_;    ///< null: the gas has no viscosity
   StartExchange at_start_;                  ///< explicit: what the pieces at t^n receive
@@ -164,6 +189,7 @@ class CutCells : public Effect {
   parallel::ExactSum wall_work_, pressure_impulse_, exchanged_energy_, wall_heat_;
   std::optional<Real> ambient_pressure_;             ///< loads are relative to it, Pa
   std::array<parallel::ExactSum, 4> ambient_given_;  ///< impulse and energy the solid got beyond what the fluid gave
+  std::unique_ptr<StageAccount> stage_account_;      ///< null: defects are not charged to stages
   WallCost cost_;
 };
 

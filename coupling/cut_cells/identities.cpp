@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "coupling/cut_cells/cell_geometry.hpp"
+#include "coupling/geometry/prism.hpp"
 #include "coupling/geometry/swept.hpp"
 
 namespace brisance::coupling {
@@ -14,28 +15,6 @@ namespace brisance::coupling {
 namespace {
 
 constexpr Real tolerance = 1e-11;  // measured: 1e-14; rounding grows with the distance from the corner of the grid
-
-/// The volume that a piece sweeps by the closed formula of 1.1, m3; in 2D the shoelace of its quadrilateral.
-Real prism(Lattice const& lattice, Geometry const& g, Piece const& p, SurfaceTriangle const& t) {
-  auto const corners = g.corners_of(p);
-  Vec3 const base{static_cast<Real>(p.cell[0]), static_cast<Real>(p.cell[1]), static_cast<Real>(p.cell[2])};
-  auto const now = [&](std::size_t c) { return corners[c].point - base; };
-  auto const before = [&](std::size_t c) {
-    Vec3 x{};
-    for (std::size_t v = 0; v < static_cast<std::size_t>(lattice.dimension); ++v)
-      x += corners[c].bary[v] * (lattice.grid_point(t.x_old[v]) - base);
-    return x;
-  };
-  if (lattice.dimension == 2) return 0.5 * cross(now(0) - before(1), now(1) - before(0)).z * lattice.cell_volume();
-  Real sum = 0;
-  for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
-    Vec3 const a1 = before(0), b1 = before(c), c1 = before(c + 1), a2 = now(0), b2 = now(c), c2 = now(c + 1);
-    Vec3 const s =
-        2 * cross(b1 - a1, c1 - a1) + 2 * cross(b2 - a2, c2 - a2) + cross(b1 - a1, c2 - a2) + cross(b2 - a2, c1 - a1);
-    sum += dot(s, (a2 - a1) + (b2 - b1) + (c2 - c1)) / 36;
-  }
-  return sum * lattice.cell_volume();
-}
 
 struct Finding {
   Real defect = tolerance;
@@ -80,7 +59,7 @@ std::string broken_identity(WallRecord const& before, WallRecord const& after, s
         filled[s.cell] += s.volume / cell_volume;
       }
       if (within(cut.cell, 0))
-        worst.take((sum - prism(lattice, after.geometry, piece, t)) / cell_volume, cut.cell, "prism (G3)");
+        worst.take((sum - prism_volume(lattice, after.geometry, piece, t)) / cell_volume, cut.cell, "prism (G3)");
     }
   }
   for (WallRecord const* r : {&before, &after})

@@ -65,12 +65,16 @@ void WallRecord::enter(Extent const& from) {
     map_.set(geometry.cells[i].cell, static_cast<Index>(i));
 }
 
+void WallRecord::truncate(Extent const& kept) {
+  forget(kept);
+  geometry.pieces.resize(kept.pieces);
+  geometry.corners.resize(kept.corners);
+  geometry.cells.resize(kept.cells);
+  geometry.solid.resize(kept.runs);
+}
+
 void WallRecord::clear() {
-  forget({});
-  geometry.pieces.clear();
-  geometry.corners.clear();
-  geometry.cells.clear();
-  geometry.solid.clear();
+  truncate({});
   resting_.clear();
   known_.clear();
   rest_ = {};
@@ -119,11 +123,7 @@ void WallRecord::append(Geometry const& part, std::vector<Index> const& place) {
 }
 
 void WallRecord::cut_resting() {
-  forget({});
-  geometry.pieces.clear();
-  geometry.corners.clear();
-  geometry.cells.clear();
-  geometry.solid.clear();
+  truncate({});
   rest_piece_.clear();
   rest_cells_.clear();
   rest_residual_ = rest_mismatch_ = 0;
@@ -199,11 +199,7 @@ void WallRecord::rebuild() {
       if (stale) {
         cut_resting();
       } else {
-        forget(rest_);
-        geometry.pieces.resize(rest_.pieces);
-        geometry.corners.resize(rest_.corners);
-        geometry.cells.resize(rest_.cells);
-        geometry.solid.resize(rest_.runs);
+        truncate(rest_);
         for (std::size_t p = 0; shifted && p < rest_.pieces; ++p)
           geometry.pieces[p].triangle = rest_place_[static_cast<std::size_t>(rest_piece_[p])];
       }

@@ -18,6 +18,7 @@ void CutCells::begin_step(Clock const& clock) {
   sweeper_.begin_step();
   if (viscous_) viscous_->begin_step();
   surface_.begin_step();
+  if (stage_account_) stage_account_->begin_step();
   rounds_ = 0;
   solid_.save(solid_before_);
   solid_.predict(clock.dt, clock.sub_steps);
@@ -72,6 +73,12 @@ void CutCells::load_at_start() {
 void CutCells::end_drift(Clock const& clock) {
   surface_.take_velocities(1 / static_cast<Real>(clock.sub_steps), clock.sub_step == 0);
   solid_.add_load_work(clock.dt, wall_work_);
+  if (stage_account_) {
+    Amounts received;
+    solid_.add_load_impulse(clock.dt, std::span(received).subspan<1, 3>());
+    solid_.add_load_work(clock.dt, received[4]);
+    stage_account_->solid_received(received);
+  }
   bool const last = clock.sub_step + 1 == clock.sub_steps;
   // In `explicit` they travel with the triangles that are still to come.
   Stopwatch const watch(cost_.exchange_s);

@@ -89,11 +89,11 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
       Real const chi =
           vacuum ? 1 : half_riemann(u, record.wall_velocity(piece.triangle, piece.bary_centroid), piece.area);
       piece_factor_[static_cast<std::size_t>(f)] = chi;
-      Vec3 force = force_on_solid(chi, pressure, piece.area);
-      if (viscous_ && !initial) force += (*viscous_)[static_cast<std::size_t>(f)].force;
+      PieceFriction const friction = viscous_ && !initial ? (*viscous_)[static_cast<std::size_t>(f)] : PieceFriction{};
       if (scheme_ == TimeCoupling::explicit_load && !initial)
-        at_start_.give(record, static_cast<std::size_t>(f), force,
-                       viscous_ ? (*viscous_)[static_cast<std::size_t>(f)].heat : 0);
+        at_start_.give(record, static_cast<std::size_t>(f), force_of_gas(chi, pressure, piece.area) + friction.force,
+                       friction.heat);
+      Vec3 const force = force_on_solid(chi, pressure, piece.area) + friction.force;
       GlobalId const triangle = record.triangles[static_cast<std::size_t>(piece.triangle)].id;
       GlobalId const cell = grid.cell_id(cut.cell);
       if (forces.empty() || forces.back().triangle != triangle || forces.back().cell != cell)

@@ -90,6 +90,7 @@ class WallRecord {
     return {geometry.pieces.size(), geometry.corners.size(), geometry.cells.size(), geometry.solid.size()};
   }
   void forget(Extent const& from);
+  void truncate(Extent const& kept);
   void enter(Extent const& from);
   void clear();
   std::vector<GlobalId> unmoved_surfaces();

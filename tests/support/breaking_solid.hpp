@@ -1,11 +1,21 @@
 // A solid without a fluid that may break, stepped as the program steps it.
 #pragma once
+#include <cstdio>
+#include <string>
+
 #include "core/model/simulation.hpp"
 #include "core/solid/effects.hpp"
 #include "core/solid/fracture/fracture.hpp"
 #include "tests/support/solids.hpp"
 
 namespace brisance::testing {
+
+/// A number as texts show it.
+inline std::string figure(Real x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
 
 inline solid::LawConfig stress_law(Real tensile_strength, Real beta = 1) {
   solid::LawConfig law;

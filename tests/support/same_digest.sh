@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # same_digest.sh PROGRAM WORK STEPS SCENE [options of run]: the scene ends with the same state_digest on 1, 2, 3 and 4 ranks,
 # and when it is stopped half way and restarted on another number of ranks; blocks of another size
-# give the same bits too, and so do blocks that may not sleep. The census of fragments and the loads of bodies have the same bytes.
+# give the same bits too, and so do blocks that may not sleep. The census of fragments, the loads of bodies and, with
+# blocks of the same size, the ledger by stages have the same bytes.
 # With BREAKING=1 in the environment, links must have broken half way, and more of them at the end.
 set -u
 program=$1 work=$2 steps=$3 scene=$4
@@ -29,8 +30,10 @@ check() { # check NAME DIRECTORY
     echo "FAILED: $1: expected $expected, got $got"
     failed=1
   fi
-  # The census of fragments and the loads of bodies, where there are some: the same bytes.
-  for table in fragments body_loads; do
+  # Tables, where there are some. A ledger by stages sums block by block.
+  local tables="fragments body_loads stages" table
+  [[ $1 == blocks* ]] && tables="fragments body_loads"
+  for table in $tables; do
     if [[ -f $work/one/$table.csv ]] && ! cmp "$work/one/$table.csv" "$2/$table.csv"; then
       echo "FAILED: $1: another $table.csv"
       failed=1

@@ -89,7 +89,7 @@ void check_step(std::vector<coupling::SurfaceTriangle> const& triangles, couplin
       sum += s.volume;
       change[s.cell] += s.volume;
     }
-    w.prism = max(w.prism, std::abs(sum - closed_formula(unit, g1, p, t)));
+    w.prism = max(w.prism, std::abs(sum - prism_volume(unit, g1, p, t)));
   }
   for (auto const& [c, defect] : change) {
     // What uncut cells hold is a whole number.

@@ -31,7 +31,10 @@ Contact::Contact(SolidConfig const& config, Solid& solid, parallel::Comm& comm)
 void Contact::join(Plan& plan) {
   plan.effect("solid.contact", [this] { return list_.bytes() + overlaps_.size() * sizeof(Overlap); });
   plan.at(Stage::contact, [this](Clock const& clock) { apply(clock); });
-  plan.limit("solid.contact", [this](Clock const&) { return time_step(); });
+  if (plan.stages()) charge_stages(plan);
+  plan.limit_ahead(
+      "solid.contact", [this](Clock const&) { return time_step(); }, [this] { return sight(); },
+      [this](Real horizon) { return sub_step(horizon); });
   plan.account([this](Ledger& ledger) { account(ledger); });
   Plan::Keep keep;
   struct Saved {
@@ -44,17 +47,40 @@ void Contact::join(Plan& plan) {
     for (std::size_t const k : live_)
       if (overlaps_[k].active) saved->memory.emplace(listed_[k], overlaps_[k].memory);
     saved->dissipated = dissipated_;
+    if (charged_) charged_->save();
   };
   keep.restore = [this, saved] {
     kept_ = saved->memory;
     dissipated_ = saved->dissipated;
-    step_ = -1;
+    step_ = {-1, 0};
     start();
+    if (charged_) charged_->restore();
   };
   keep.write = [this](parallel::ArchiveWriter& file) { write(file); };
   keep.read = [this](parallel::ArchiveReader& file) { read(file); };
   keep.digest = [this](parallel::Digest& digest) { this->digest(digest); };
   plan.keep(std::move(keep));
+}
+
+void Contact::charge_stages(Plan& plan) {
+  charged_ = std::make_unique<ContactAccount>(*plan.stages(), solid_);
+  plan.at(Stage::set_off, [this](Clock const&) {
+    charged_->begin_step(held_energy());
+    charged_->before_kick();
+  });
+  plan.at(Stage::kick, [this](Clock const& c) { charged_->after_kick(c.dt); });
+  plan.at(Stage::contact, [this](Clock const&) { charged_->before_kick(); });
+  plan.at(Stage::kick_again, [this](Clock const& c) {
+    charged_->after_kick(c.dt);
+    charged_->end_step(held_energy(), dissipated_);
+  });
+}
+
+parallel::ExactSum Contact::held_energy() const {
+  parallel::ExactSum energy;
+  for (std::size_t const k : live_)
+    if (overlaps_[k].active && mine(k)) energy.add(overlaps_[k].energy);
+  return energy;
 }
 
 void Contact::start() {
@@ -160,13 +186,15 @@ PairEnd Contact::end_of(Index actor, Vec3 const& area, Vec3 const& moment) const
 }
 
 void Contact::apply(Clock const& clock) {
-  bool const again = step_ == clock.step;  // links broke in this step: forces anew at the same positions
-  step_ = clock.step;
+  std::pair<std::int64_t, int> const now{clock.step, clock.sub_step};
+  bool const again = step_ == now;  // links broke in this step: forces anew at the same positions
+  step_ = now;
   if (!again) begin_step();
   refresh();
   find_overlaps(Axes::choose);
   gather_accelerations();
   std::span<Wrench> const wrench = solid_.internal();
+  if (charged_) charged_->begin_forces();
   for (std::size_t const k : live_) {
     Overlap& o = overlaps_[k];
     ContactPair const& p = list_.pairs()[k];
@@ -186,6 +214,7 @@ void Contact::apply(Clock const& clock) {
         if (local < 0) return;
         wrench[at(local)].force += force;
         wrench[at(local)].torque += torque;
+        if (charged_) charged_->add(local, force, torque);
       };
       add(p.a, f.force + o.barrier.force, f.torque_a + o.barrier.torque_a);
       add(p.b, -f.force - o.barrier.force, f.torque_b + o.barrier.torque_b);
@@ -217,11 +246,9 @@ void Contact::book(Overlap& o, PairEnd const& a, PairEnd const& b, Real dt, bool
 }
 
 void Contact::account(Ledger& ledger) {
-  for (std::size_t const k : live_) {
-    if (!overlaps_[k].active || !mine(k)) continue;
-    ledger.add(Entry::energy, overlaps_[k].energy);
-    ledger.add(Entry::solid_elastic, overlaps_[k].energy);
-  }
+  parallel::ExactSum const energy = held_energy();
+  ledger.add(Entry::energy, energy);
+  ledger.add(Entry::solid_elastic, energy);
   ledger.add(Entry::dissipated, dissipated_);
   dissipated_ = {};
 }
@@ -250,6 +277,7 @@ void Contact::write(parallel::ArchiveWriter& file) const {
     rows.insert(rows.end(), row.begin(), row.end());
   }
   file.sparse("solid/contact", PairMemory::size, ids, rows);
+  if (charged_) charged_->write(file);
 }
 
 void Contact::read(parallel::ArchiveReader& file) {
@@ -259,6 +287,7 @@ void Contact::read(parallel::ArchiveReader& file) {
     PairId const id{stored.ids[r] / solid_.mesh().size(), stored.ids[r] % solid_.mesh().size()};
     kept_.emplace(id, PairMemory::unpack(stored.data.data() + r * PairMemory::size));
   }
+  if (charged_) charged_->read(file);
 }
 
 }  // namespace brisance::solid

@@ -1,8 +1,11 @@
 // The effect solid.contact: forces of overlapping particles, their memory and their account.
 #pragma once
 #include <map>
+#include <memory>
+#include <optional>
 
 #include "core/model/plan.hpp"
+#include "core/solid/contact/contact_account.hpp"
 #include "core/solid/contact/contact_law.hpp"
 #include "core/solid/contact/contact_list.hpp"
 
@@ -23,6 +26,11 @@ class Contact : public Effect {
   /// Largest step (s) of this rank's particles: stable and well resolved while they overlap, and so short that none
   /// passes through another. Collective.
   Real time_step();
+  /// The same for the sub-steps of a coupled step. Time (s) over which nobody comes near who is not near now; and the
+  /// largest sub-step when limits are chosen anew after `horizon` s, within that time: whoever may meet until then is
+  /// regarded as if in contact. Collective both.
+  Real sight();
+  Real sub_step(Real horizon);
   void account(Ledger& ledger);
   void digest(parallel::Digest& to) const;
 
@@ -50,9 +58,12 @@ class Contact : public Effect {
   void begin_step();
   void book(Overlap& overlap, PairEnd const& a, PairEnd const& b, Real dt, bool again);
   void carry_over();
-  enum class Axes { keep, choose };  ///< of the barriers: those of the memory, or those of a new step
+  void charge_stages(Plan& plan);
+  parallel::ExactSum held_energy() const;  ///< of the overlaps of this rank, J
+  enum class Axes { keep, choose };        ///< of the barriers: those of the memory, or those of a new step
   void find_overlap(std::size_t pair, Axes axes);
   void find_overlaps(Axes axes);
+  Real step_within(std::optional<Real> horizon);
   Vec3 acceleration_of(Index local) const;
   std::array<double, 8> motion_row(Index local);
   void gather_accelerations();
@@ -71,9 +82,10 @@ class Contact : public Effect {
   std::vector<std::size_t> live_;      ///< places of those that overlap, or did at the start of the step
   std::vector<PairId> listed_;         ///< ids of the pairs that `overlaps_` belongs to
   std::map<PairId, PairMemory> kept_;  ///< of a checkpoint or of the start of a pair of steps, until the list is built
-  std::int64_t step_ = -1;             ///< the step whose forces were computed last
-  parallel::ExactSum dissipated_;      ///< since the last account
-  std::vector<double> rows_;           ///< accelerations of the actors
+  std::pair<std::int64_t, int> step_{-1, 0};  ///< the (sub-)step whose forces were computed last
+  parallel::ExactSum dissipated_;             ///< since the last account
+  std::vector<double> rows_;                  ///< accelerations of the actors
+  std::unique_ptr<ContactAccount> charged_;   ///< null: defects are not charged to stages
 };
 
 }  // namespace brisance::solid

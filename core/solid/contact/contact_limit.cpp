@@ -96,14 +96,27 @@ std::array<double, 8> Contact::motion_row(Index local) {
 }
 
 Real Contact::time_step() {
+  Real const seen = sight();
+  return min(seen, step_within(std::nullopt));
+}
+
+Real Contact::sight() {
   // Links may have broken since the forces were computed; a run that starts here would see it.
   if (solid_.damageable() && refresh()) measure();
-  Real dt = unlimited;
   // Nothing may come near and pass before it is listed: at most half a reach a step.
+  Real dt = unlimited;
   for (Index const l : list_.candidates()) {
     Motion const& m = solid_.motion()[at(l)];
     dt = min(dt, time_to_cover(0.5 * ContactList::reach(list_.shape(l)), norm(m.v), norm(acceleration_of(l))));
   }
+  return dt;
+}
+
+Real Contact::sub_step(Real horizon) { return step_within(horizon); }
+
+/// Without a horizon: a step that may end before they meet.
+Real Contact::step_within(std::optional<Real> horizon) {
+  Real dt = unlimited;
   auto const& actors = list_.actors();
   rows_.assign(width * actors.size(), 0);
   for (std::size_t k = 0; k < actors.size(); ++k) {
@@ -120,7 +133,7 @@ Real Contact::time_step() {
     Overlap const& o = overlaps_[k];
     ContactActor const &a = actors[at(p.a)], &b = actors[at(p.b)];
     MotionRow const ma(&rows_[width * at(p.a)]), mb(&rows_[width * at(p.b)]);
-    Real const speed = norm(ma.v - mb.v) + ma.turning + mb.turning;
+    Real speed = norm(ma.v - mb.v) + ma.turning + mb.turning;
     Real const acceleration = norm(ma.a - mb.a) + ma.turning_up + mb.turning_up;
 
     // Both ends of a moving pair see twice its stiffness (|u - v|^2 <= 2 |u|^2 + 2 |v|^2), a wall stands still.
@@ -141,11 +154,13 @@ Real Contact::time_step() {
     Frequency const flat_a = shared * flat_contact(o.law, a, square(area)),
                     flat_b = shared * flat_contact(o.law, b, square(area));
     if (!o.active) {
-      if (Real const touch = time_to_cover(gap.width, speed, acceleration);
-          touch > config_.cfl * 2 / std::sqrt(max(flat_a.normal, flat_b.normal))) {
-        dt = min(dt, touch);  // a step that ends before they meet needs no regard for their stiffness
+      Real const touch = time_to_cover(gap.width, speed, acceleration);
+      if (horizon ? touch > *horizon : touch > config_.cfl * 2 / std::sqrt(max(flat_a.normal, flat_b.normal))) {
+        if (!horizon) dt = min(dt, touch);  // a step that ends before they meet needs no regard for their stiffness
         continue;
       }
+      // Sub-steps end anywhere: in the one in which they meet they are as fast as they can be by then.
+      if (horizon) gap.width = 0, speed += acceleration * touch;
     }
     dt = min(dt, time_to_cover(gap.width + depth, speed, acceleration));
     expected[at(p.a)].at_least(flat_a);

@@ -6,13 +6,14 @@
 #include <Eigen/Dense>
 
 #include "tests/support/evidence.hpp"
-#include "tests/support/solids.hpp"
+#include "tests/support/scattered_block.hpp"
 
 namespace brisance::solid {
 namespace {
 
 using testing::Lone;
 using testing::Random;
+using testing::slope;
 
 SolidConfig voronoi(Vec3 const& size, int particles, int lloyd, Real nu, std::string const& option) {
   SolidConfig config = testing::one_material(1, 1, nu);
@@ -22,26 +23,6 @@ SolidConfig voronoi(Vec3 const& size, int particles, int lloyd, Real nu, std::st
   config.body[0].particles = particles;
   config.body[0].lloyd = lloyd;
   return config;
-}
-
-Real elastic(Lone& body) {
-  body.solid.compute_forces();
-  return body.measure().value(Measures::elastic);
-}
-
-template <class Change>
-Real slope(Lone& body, Change change) {
-  Real const h = 2e-3;
-  Solid::Saved saved;
-  body.solid.save(saved);
-  auto at = [&](Real s) {
-    body.solid.restore(saved);
-    change(s);
-    return elastic(body);
-  };
-  Real const value = -(45 * (at(h) - at(-h)) - 9 * (at(2 * h) - at(-2 * h)) + (at(3 * h) - at(-3 * h))) / (60 * h);
-  body.solid.restore(saved);
-  return value;
 }
 
 /// One step of S1 per freedom; the sums of S3; with free, loaded and clamped faces.

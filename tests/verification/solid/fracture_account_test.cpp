@@ -3,50 +3,23 @@
 
 #include "tests/support/breaking_solid.hpp"
 #include "tests/support/evidence.hpp"
+#include "tests/support/scattered_block.hpp"
 
 namespace brisance::solid {
 namespace {
 
 using testing::BreakingSolid;
+using testing::elastic;
+using testing::figure;
 using testing::Lone;
 using testing::Random;
-
-std::string figure(Real x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", x);
-  return text;
-}
-
-/// A block of bricks or Voronoi cells in a random state.
-SolidConfig block(Real poisson_ratio, bool voronoi) {
-  SolidConfig config = testing::one_material(1, 1, poisson_ratio);
-  config.body.push_back(testing::box({0, 0, 0}, {3, 3, 3}, {3, 3, 3}));
-  if (voronoi) {
-    config.body[0].tessellation = "voronoi";
-    config.body[0].particles = 27;
-    config.body[0].lloyd = 3;
-  }
-  return config;
-}
-
-void scatter(Solid& solid, Random& random) {
-  for (Pose& p : solid.pose()) {
-    p.x += 0.3 * random.vector();
-    p.q = testing::rotation(random.vector());
-  }
-  solid.compute_forces();
-}
-
-Real elastic(Lone& body) {
-  body.solid.compute_forces();
-  return body.measure().value(Measures::elastic);
-}
+using testing::scatter;
 
 // S25: what the account books for each of 40 breaks is the drop of the whole elastic energy at fixed positions.
 TEST(Fracture, EveryBreakReleasesWhatTheAccountSays) {
   for (bool voronoi : {false, true})
     for (Real nu : {-0.95, -0.5, 0.0, 0.3, 0.49}) {
-      Lone body(block(nu, voronoi));
+      Lone body(testing::block_of_cells(3, nu, voronoi));
       Random random(11);
       scatter(body.solid, random);
       body.solid.allow_damage();
@@ -81,7 +54,7 @@ TEST(Fracture, EveryBreakReleasesWhatTheAccountSays) {
 // The same for the effect: links that fail together, and those that fail after them, step by step to the last one.
 TEST(Fracture, LinksThatFailTogetherReleaseTheDropOfTheBody) {
   for (Real nu : {-0.95, 0.0, 0.49}) {
-    SolidConfig config = block(nu, true);
+    SolidConfig config = testing::block_of_cells(3, nu, true);
     LawConfig law = testing::stress_law(0.35, 0.7);
     law.weibull = Weibull{2, 1, 3};
     config.fracture.emplace().law.push_back(law);
@@ -113,7 +86,7 @@ TEST(Fracture, LinksThatFailTogetherReleaseTheDropOfTheBody) {
 TEST(Fracture, ReleaseIsTheDerivativeOfTheEnergy) {
   for (bool voronoi : {false, true})
     for (Real nu : {-0.95, -0.5, 0.0, 0.3, 0.49}) {
-      Lone body(block(nu, voronoi));
+      Lone body(testing::block_of_cells(3, nu, voronoi));
       Random random(5);
       scatter(body.solid, random);
       body.solid.allow_damage();

@@ -8,14 +8,9 @@ namespace brisance::solid {
 namespace {
 
 using testing::BreakingSolid;
+using testing::figure;
 using testing::Lone;
 using testing::Random;
-
-std::string figure(Real x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", x);
-  return text;
-}
 
 // S24: the first 8 m of a rod start at v0; the pulse, 16 m long, turns into tension at the far end.
 TEST(Fracture, RodSpallsWhereTensionFirstReachesItsStrength) {

@@ -2,60 +2,20 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/evidence.hpp"
-#include "tests/support/solids.hpp"
+#include "tests/support/scattered_block.hpp"
 
 namespace brisance::solid {
 namespace {
 
 using testing::Lone;
 using testing::Random;
-
-/// A body of unit-sized cells: bricks or Voronoi, E = rho = 1.
-SolidConfig block(Real poisson_ratio, bool voronoi) {
-  SolidConfig config = testing::one_material(1, 1, poisson_ratio);
-  config.body.push_back(testing::box({0, 0, 0}, {3, 3, 2}, {3, 3, 2}));
-  if (voronoi) {
-    config.body[0].tessellation = "voronoi";
-    config.body[0].particles = 18;
-    config.body[0].lloyd = 3;
-  }
-  return config;
-}
-
-/// Positions off by 0.3 h, rotations of about 1 rad.
-void scatter(Solid& solid, Random& random) {
-  for (Pose& p : solid.pose()) {
-    p.x += 0.3 * random.vector();
-    p.q = testing::rotation(random.vector());
-  }
-  solid.compute_forces();
-}
-
-Real elastic(Lone& body) {
-  body.solid.compute_forces();
-  return body.measure().value(Measures::elastic);
-}
-
-/// -dE/ds along a one-parameter change, by sixth-order differences.
-template <class Change>
-Real slope(Lone& body, Change change) {
-  Real const h = 2e-3;
-  Solid::Saved saved;
-  body.solid.save(saved);
-  auto at = [&](Real s) {
-    body.solid.restore(saved);
-    change(s);
-    return elastic(body);
-  };
-  Real const value = -(45 * (at(h) - at(-h)) - 9 * (at(2 * h) - at(-2 * h)) + (at(3 * h) - at(-3 * h))) / (60 * h);
-  body.solid.restore(saved);
-  return value;
-}
+using testing::scatter;
+using testing::slope;
 
 TEST(ElasticLinks, ForcesAreTheGradientOfTheEnergyAndBalance) {
   for (bool voronoi : {false, true})
     for (Real nu : {-0.6, 0.3, 0.48}) {
-      Lone body(block(nu, voronoi));
+      Lone body(testing::block_of_cells(2, nu, voronoi));
       Random random(7);
       scatter(body.solid, random);
       std::vector<Wrench> const exact(body.solid.internal().begin(), body.solid.internal().end());
@@ -96,7 +56,7 @@ void move_rigidly(Solid& solid, Quaternion const& turn, Vec3 const& shift) {
 TEST(ElasticLinks, EnergyIsObjective) {
   for (bool voronoi : {false, true}) {
     std::string const variant = voronoi ? "voronoi" : "cartesian";
-    Lone body(block(0.3, voronoi));
+    Lone body(testing::block_of_cells(2, 0.3, voronoi));
     Quaternion const quarter = testing::rotation({0, 0, std::acos(-1.0) / 2});
     move_rigidly(body.solid, quarter, {1, 2, 3});
     EXPECT_TRUE(
