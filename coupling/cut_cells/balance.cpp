@@ -306,13 +306,20 @@ void CutCells::exchange_at_end(CutCell const& cut, Real dt, State& amount) {
   }
 }
 
+void CutCells::take_part(Index triangle, TrianglePart const& part, StartExchange::Share const& share, Real dt,
+                         State& amount) {
+  take(part.share * share.force, part.share * share.heat, next_.wall_velocity(triangle, part.bary), dt, amount);
+  take_difference(triangle, part.share * share.area, dt, amount);
+  if (!ambient_pressure_) return;
+  for (int d = 0; d < 3; ++d) amount[static_cast<std::size_t>(d) + 1] -= dt * part.share * share.beyond[d];
+  amount[4] -= dt * part.share * share.beyond_power;
+}
+
 void CutCells::exchange_of_start(CutCell const& cut, Real dt, State& amount) {
   for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
     Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
     at_start_.for_parts(record_, next_, piece, [&](TrianglePart const& part, StartExchange::Share const& share, auto&) {
-      take(part.share * share.force, part.share * share.heat, next_.wall_velocity(piece.triangle, part.bary), dt,
-           amount);
-      take_difference(piece.triangle, part.share * share.area, dt, amount);
+      take_part(piece.triangle, part, share, dt, amount);
     });
   }
 }
@@ -327,9 +334,7 @@ void CutCells::exchange_outside(Real dt) {
                           [&](TrianglePart const& part, StartExchange::Share const& share, Piece const& before) {
                             if (!owned(before.cell)) return;
                             State paid{};  // by nobody inside: as if it came from beyond the boundary
-                            take(part.share * share.force, part.share * share.heat,
-                                 next_.wall_velocity(piece.triangle, part.bary), dt, paid);
-                            take_difference(piece.triangle, part.share * share.area, dt, paid);
+                            take_part(piece.triangle, part, share, dt, paid);
                             for (std::size_t q = 1; q < 5; ++q) crossed_[q].add(-paid[q]);
                           });
     }

@@ -32,7 +32,7 @@ CutCells::CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flo
     r->set_region(region);
   }
   sweeper_.ambient = ambient;
-  if (config.load == "relative") ambient_pressure_ = flow.gas().pressure(ambient);
+  if (config.load == "relative") surface_.beyond_loads = ambient_pressure_.emplace(flow.gas().pressure(ambient));
   flow.set_sweeper(&sweeper_);
   areal_mass_ = areal_masses(surface_.topology(), solid.mesh());
 }

@@ -89,6 +89,9 @@ class CutCells : public Effect {
   void take(Vec3 const& force, Real heat, Vec3 const& velocity, Real dt, fluid::State& amount);
   /// So is what the load on this area of a triangle of next_ differs from what the solid receives.
   void take_difference(Index triangle, Real area, Real dt, fluid::State& amount);
+  /// What the part of a triangle of next_ received on the boundary at the start.
+  void take_part(Index triangle, TrianglePart const& part, StartExchange::Share const& share, Real dt,
+                 fluid::State& amount);
   void exchange_at_end(CutCell const& cut, Real dt, fluid::State& amount);
   void exchange_of_start(CutCell const& cut, Real dt, fluid::State& amount);
   /// Pressures of the sweeps in an owned cell, Pa.
@@ -123,8 +126,6 @@ class CutCells : public Effect {
   void charge(Part part);
   /// Loads relative to the ambient pressure: the difference from what the fluid gives goes to the account.
   void ambient_account(Real dt);
-  /// Velocity in this step of the wall where a piece of the present boundary was, m/s.
-  Vec3 velocity_in_step(Piece const& piece) const;
   /// What the fluid gives where it exerts `chi` times `pressure` on a piece, and what the solid feels of it, N.
   static Vec3 force_of_gas(Real chi, Vec3 const& pressure, Vec3 const& area) {
     return {-chi * pressure.x * area.x, -chi * pressure.y * area.y, -chi * pressure.z * area.z};

@@ -22,10 +22,12 @@ std::size_t StartExchange::first_of(GlobalId triangle) const {
       of_triangle_.begin());
 }
 
-void StartExchange::give(WallRecord const& record, std::size_t piece, Vec3 const& force, Real heat) {
+void StartExchange::give(WallRecord const& record, std::size_t piece, Share const& received) {
   Piece const& p = record.geometry.pieces[piece];
   Real const share = part_of(record.geometry.corners_of(p)).share;
-  if (share > 0) shares_[piece] = {force / share, heat / share, norm(p.area) / share};
+  if (share > 0)
+    shares_[piece] = {received.force / share, received.heat / share, norm(p.area) / share, received.beyond / share,
+                      received.beyond_power / share};
 }
 
 void StartExchange::exchange(WallRecord const& record, fluid::Flow const& flow, parallel::Comm& comm) {

@@ -17,12 +17,15 @@ class StartExchange {
     Vec3 force;     ///< N
     Real heat = 0;  ///< W
     Real area = 0;  ///< that bears a load, m2
+    // Loads relative to the ambient pressure: what the gas gives beyond `force`, and with what power.
+    Vec3 beyond{};          ///< N
+    Real beyond_power = 0;  ///< W
   };
 
   /// Nothing yet on the pieces of `record`, the boundary at t^n.
   void begin(WallRecord const& record);
-  /// A piece of an owned cell receives `force` and `heat`.
-  void give(WallRecord const& record, std::size_t piece, Vec3 const& force, Real heat);
+  /// A piece of an owned cell receives this, with the area of the piece.
+  void give(WallRecord const& record, std::size_t piece, Share const& received);
   /// Collective. Shares of pieces in the cells of other ranks that lie beside the blocks of this one.
   void exchange(WallRecord const& record, fluid::Flow const& flow, parallel::Comm& comm);
 

@@ -109,7 +109,8 @@ void WallSurface::centre() {
     Index wet = 0;
     for (; p < pressed.size() && pressed[p].vertex == v.id; ++p)
       force += pressed[p].force, area += pressed[p].area, wet += pressed[p].area > 0;
-    v.pressure = wet == v.triangles ? force / area : 0;
+    v.bears = wet == v.triangles;
+    if (v.bears) v.pressure = force / area;
   }
   for (Triangle& t : triangles_) {
     auto const [record, position] = places(t);
@@ -125,7 +126,7 @@ void WallSurface::centre() {
 void WallSurface::apply(std::vector<CellForce> const& forces, LoadOf of) {
   load_of_ = of;
   gather_forces(forces);
-  for (Vertex& v : vertices_) v.pressure = 0;
+  for (Vertex& v : vertices_) v.pressure = 0, v.bears = false;
   bool const centred = of != LoadOf::present;
   if (centred) centre();
   struct CornerForce {
@@ -174,7 +175,8 @@ Vec3 WallSurface::turning(Triangle const& t) const {
   auto const to_start = area_gained(dimension, flow_.grid().spacing.z, position, record);
   Vec3 force;
   for (std::size_t a = 0; a < static_cast<std::size_t>(dimension); ++a)
-    force -= vertices_[t.vertex[a]].pressure * (to_end[a] - to_start[a]);
+    if (Vertex const& v = vertices_[t.vertex[a]]; v.bears)
+      force -= (v.pressure + beyond_loads) * (to_end[a] - to_start[a]);
   return force / t.wetted;
 }
 

@@ -86,14 +86,19 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
       pressure[d] = initial ? flow_.gas().pressure(u) : wall.pressure[static_cast<std::size_t>(d)][wall.cell(i, j, k)];
     for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
       Piece const& piece = record.geometry.pieces[static_cast<std::size_t>(f)];
-      Real const chi =
-          vacuum ? 1 : half_riemann(u, record.wall_velocity(piece.triangle, piece.bary_centroid), piece.area);
+      Vec3 const velocity = record.wall_velocity(piece.triangle, piece.bary_centroid);
+      Real const chi = vacuum ? 1 : half_riemann(u, velocity, piece.area);
       piece_factor_[static_cast<std::size_t>(f)] = chi;
       PieceFriction const friction = viscous_ && !initial ? (*viscous_)[static_cast<std::size_t>(f)] : PieceFriction{};
-      if (scheme_ == TimeCoupling::explicit_load && !initial)
-        at_start_.give(record, static_cast<std::size_t>(f), force_of_gas(chi, pressure, piece.area) + friction.force,
-                       friction.heat);
-      Vec3 const force = force_on_solid(chi, pressure, piece.area) + friction.force;
+      Vec3 const felt = force_on_solid(chi, pressure, piece.area), force = felt + friction.force;
+      if (scheme_ == TimeCoupling::explicit_load && !initial) {
+        StartExchange::Share received{force, friction.heat};
+        if (ambient_pressure_) {
+          received.beyond = force_of_gas(chi, pressure, piece.area) - felt;
+          received.beyond_power = dot(received.beyond, velocity);
+        }
+        at_start_.give(record, static_cast<std::size_t>(f), received);
+      }
       GlobalId const triangle = record.triangles[static_cast<std::size_t>(piece.triangle)].id;
       GlobalId const cell = grid.cell_id(cut.cell);
       if (forces.empty() || forces.back().triangle != triangle || forces.back().cell != cell)

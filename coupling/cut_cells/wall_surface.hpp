@@ -75,6 +75,8 @@ class WallSurface {
   /// work differs by SurfaceTriangle::centring. Loads of the start stay those of the fluid until the boundary has
   /// turned: the difference, nothing in all, is SurfaceTriangle::turning.
   void apply(std::vector<CellForce> const& forces, LoadOf of);
+  /// The pressure that the fluid gives beyond the loads, Pa.
+  Real beyond_loads = 0;
 
   Real fastest_vertex(int direction) const;  ///< m/s, over local vertices
   bool moved() const;                        ///< any vertex whose predicted position differs from the record
@@ -99,10 +101,11 @@ class WallSurface {
   struct Vertex {
     GlobalId id = 0;
     Vec3 record, position, velocity;
-    Vec3 working;       ///< the velocity under the arms of centred loads
-    Vec3 told;          ///< the velocity that was last sent
-    Vec3 lag;           ///< from the mean of its particles, after a break that moved this far; taken back in steps
-    Real pressure = 0;  ///< mean over its triangles; 0 unless all of them bear a load, Pa
+    Vec3 working;        ///< the velocity under the arms of centred loads
+    Vec3 told;           ///< the velocity that was last sent
+    Vec3 lag;            ///< from the mean of its particles, after a break that moved this far; taken back in steps
+    Real pressure = 0;   ///< mean over its triangles; 0 unless all of them bear a load, Pa
+    bool bears = false;  ///< all of them do
     Index triangles = 0;
     Index first_member = 0, last_member = 0;
   };
