@@ -48,21 +48,24 @@ Projection WallRecord::project(CellIndex c, int direction, int side, Index& hint
   };
   CellBits const& cells = facing_[static_cast<std::size_t>(direction < 0 ? 6 : 2 * direction + (side > 0))];
   auto const gap2 = [&](std::size_t d, Index offset) { return gap2_[d][static_cast<std::size_t>(std::abs(offset))]; };
-  for (Index within = 1; within <= reach; ++within) {
+  Index done = -1;  // all cells within are done with
+  for (Index const within : {1, 2, 3, reach}) {
     Real const seen2 = square((within + 0.5) * h);  // no piece beyond these cells is closer
-    if (use_hint && best > seen2 && within < reach) continue;
     Index const ry = grid_->dimension > 1 ? within : 0, rz = grid_->dimension > 2 ? within : 0;
     for (Index k = -rz; k <= rz; ++k)
       for (Index j = -ry; j <= ry; ++j) {
         Real const beside2 = gap2(2, k) + gap2(1, j);
         if (beside2 > best) continue;
         std::uint64_t row = cells.around({c[0], c[1] + j, c[2] + k}, within);
+        if (std::abs(j) <= done && std::abs(k) <= done)
+          row &= ~(((std::uint64_t{2} << (2 * done)) - 1) << (within - done));
         for (; row != 0; row &= row - 1) {
           Index const i = std::countr_zero(row) - within;
           if (beside2 + gap2(0, i) <= best) look_into(cut(map_.at({c[0] + i, c[1] + j, c[2] + k})));
         }
       }
     if (nearest >= 0 && best <= seen2) break;
+    done = within;
   }
   if (nearest < 0) return {};
   hint = nearest;
