@@ -11,7 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/solid/bench_links.hpp"
 #include "core/solid/contact/bench_contact.hpp"
-#include "coupling/geometry/bench.hpp"
+#include "coupling/cut_cells/bench.hpp"
 #include "drivers/commands.hpp"
 #include "fluid/bench_steps.hpp"
 #include "fluid/diffusion/bench_viscous.hpp"
@@ -75,6 +75,8 @@ std::vector<Bench> all_benches(parallel::Comm& comm) {
   benches.push_back({"coupling.closest_points", [](auto const&) {
                        return geometry_row("coupling.closest_points", coupling::bench_closest_points());
                      }});
+  benches.push_back({"coupling.projections",
+                     [](auto const&) { return geometry_row("coupling.projections", coupling::bench_projections()); }});
   return benches;
 }
 

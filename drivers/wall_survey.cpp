@@ -12,7 +12,7 @@ namespace {
 /// Price of a cut cell in plain cells, as measured on whole runs (coupling/README.md). Constants, and not the times of
 /// this run: the same scene gets the same partition.
 std::int64_t price(int dimension, bool moves) {
-  if (dimension == 3) return moves ? 240 : 40;
+  if (dimension == 3) return moves ? 150 : 40;
   return moves ? 150 : 30;
 }
 

@@ -63,7 +63,7 @@ void CutCells::transfers() {
           place[d] = d < grid.dimension ? clamp(place[d], -0.5 * grid.spacing[d], 0.5 * grid.spacing[d]) : 0;
         transfers_.push_back(
             {id_of(cut.cell), id_of(s.cell), grid.cell_id(inside), s.volume, place, piece.area, velocity});
-        wanted.push_back(transfers_.back().state);
+        if (wanted.empty() || wanted.back() != transfers_.back().state) wanted.push_back(transfers_.back().state);
       }
     }
     cost_.moving += moving && here;

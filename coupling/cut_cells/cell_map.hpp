@@ -1,6 +1,8 @@
 // A value per grid cell over a box of cells, with a default everywhere else.
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "coupling/geometry/surface.hpp"
@@ -40,6 +42,48 @@ class CellMap {
   std::ptrdiff_t stride_y_ = 0, stride_z_ = 0;
   T nothing_{};
   std::vector<T> data_;
+};
+
+/// A bit per cell of a box: which cells of a row along x are marked, many at a time.
+class CellBits {
+ public:
+  /// Covers `range`; no cell is marked.
+  void cover(CellBox const& range) {
+    range_ = range;
+    row_ = empty(range) ? 0 : static_cast<std::size_t>(range.high[0] - range.low[0] + 2 * margin) / 8 + 8;
+    data_.assign(empty(range) ? 0
+                              : row_ * static_cast<std::size_t>(range.high[1] - range.low[1]) *
+                                    static_cast<std::size_t>(range.high[2] - range.low[2]),
+                 0);
+  }
+  /// Expects: c inside the range.
+  void mark(CellIndex c) { data_[byte(c, 0)] |= bit(c); }
+  void unmark(CellIndex c) { data_[byte(c, 0)] &= static_cast<std::uint8_t>(~bit(c)); }
+  /// Marks of the cells from c[0] - `within` to c[0] + `within` of the row of c, the first one in the lowest bit.
+  /// Expects: within < 16.
+  std::uint64_t around(CellIndex c, Index within) const {
+    if (c[1] < range_.low[1] || c[1] >= range_.high[1] || c[2] < range_.low[2] || c[2] >= range_.high[2] ||
+        c[0] + within < range_.low[0] || c[0] - within >= range_.high[0])
+      return 0;
+    std::uint64_t bits;
+    std::memcpy(&bits, data_.data() + byte(c, within), sizeof bits);
+    return (bits >> ((c[0] - within - range_.low[0] + margin) & 7)) & ((std::uint64_t{2} << (2 * within)) - 1);
+  }
+  std::size_t bytes() const { return data_.size(); }
+
+ private:
+  static constexpr Index margin = 32;  ///< unmarked cells at both ends of a row: reads need not ask for its ends
+  std::size_t byte(CellIndex c, Index before) const {
+    auto const row =
+        static_cast<std::size_t>(c[1] - range_.low[1] + (range_.high[1] - range_.low[1]) * (c[2] - range_.low[2]));
+    return row * row_ + static_cast<std::size_t>(c[0] - before - range_.low[0] + margin) / 8;
+  }
+  std::uint8_t bit(CellIndex c) const {
+    return static_cast<std::uint8_t>(1u << (static_cast<unsigned>(c[0] - range_.low[0] + margin) & 7));
+  }
+  CellBox range_{};
+  std::size_t row_ = 0;
+  std::vector<std::uint8_t> data_;
 };
 
 /// A set of cells: each is taken once, in any order; a mark per cell keeps it cheap.

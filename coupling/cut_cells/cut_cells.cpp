@@ -238,10 +238,12 @@ void CutCells::mix() {
     }
   near_.start(around);
   for (WallRecord const* r : {&record_, &next_})
-    for (CutCell const& cut : r->geometry.cells)
+    for (CutCell const& cut : r->geometry.cells) {
+      if (r == &next_ && record_.cut_index(cut.cell) >= 0) continue;  // been there
       for_neighbourhood(grid, cut.cell, 2, [&](CellIndex c) {
         if (around.holds(c)) near_.insert(c);
       });
+    }
   for (CellIndex const& c : near_.cells())
     if (within(c)) ids.push_back(grid.cell_id(c));
   for (Content const& c : contents_) ids.push_back(c.cell);

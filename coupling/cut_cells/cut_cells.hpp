@@ -182,7 +182,7 @@ class CutCells : public Effect {
   std::vector<Transfer> transfers_;
   std::vector<Content> moved_contents_;
   StateGather swept_states_, around_groups_;
-  CellSet near_;  ///< work space of mix
+  CellSet near_;  ///< work space
   Verdict health_;
 
   // increments for the ledger since the last audit

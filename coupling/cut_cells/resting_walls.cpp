@@ -30,7 +30,10 @@ void note(std::vector<GlobalId>& ids, GlobalId id) {
 
 void WallRecord::forget(Extent const& from) {
   for (std::size_t i = from.cells; i < geometry.cells.size(); ++i)
-    if (map_.range().holds(geometry.cells[i].cell)) map_.set(geometry.cells[i].cell, uncut_fluid);
+    if (CellIndex const c = geometry.cells[i].cell; map_.range().holds(c)) {
+      map_.set(c, uncut_fluid);
+      for (CellBits& cells : facing_) cells.unmark(c);
+    }
   for (std::size_t r = from.runs; r < geometry.solid.size(); ++r) {
     SolidRun const& run = geometry.solid[r];
     for (Index i = 0; i < run.count; ++i) {
@@ -40,7 +43,19 @@ void WallRecord::forget(Extent const& from) {
   }
 }
 
+void WallRecord::mark_facing(CutCell const& cell) {
+  facing_[6].mark(cell.cell);
+  for (Index f = cell.first_piece; f < cell.last_piece; ++f)
+    for (int d = 0; d < grid_->dimension; ++d)
+      for (int side = 0; side < 2; ++side)
+        if (facets_[static_cast<std::size_t>(f)].faces(d, side == 0 ? -1 : 1))
+          facing_[static_cast<std::size_t>(2 * d + side)].mark(cell.cell);
+}
+
 void WallRecord::enter(Extent const& from) {
+  facets_.resize(from.pieces);
+  for (std::size_t p = from.pieces; p < geometry.pieces.size(); ++p)
+    facets_.push_back(facet(lattice_, geometry, geometry.pieces[p]));
   constexpr Index far = std::numeric_limits<Index>::max();
   CellBox box{{far, far, far}, {-far, -far, -far}};
   auto const enclose = [&](CellIndex c, Index count) {
@@ -55,14 +70,17 @@ void WallRecord::enter(Extent const& from) {
   Extent begin = from;
   if (!contains(map_.range(), box)) {
     map_.cover(grown(*grid_, box, 4), uncut_fluid);
+    for (CellBits& cells : facing_) cells.cover(map_.range());
     begin = {};
   }
   for (std::size_t r = begin.runs; r < geometry.solid.size(); ++r) {
     SolidRun const& run = geometry.solid[r];
     for (Index i = 0; i < run.count; ++i) map_.set({run.first[0] + i, run.first[1], run.first[2]}, uncut_solid);
   }
-  for (std::size_t i = begin.cells; i < geometry.cells.size(); ++i)
+  for (std::size_t i = begin.cells; i < geometry.cells.size(); ++i) {
     map_.set(geometry.cells[i].cell, static_cast<Index>(i));
+    mark_facing(geometry.cells[i]);
+  }
 }
 
 void WallRecord::truncate(Extent const& kept) {

@@ -8,9 +8,9 @@ namespace brisance::coupling {
 
 using fluid::Block;
 
-MirrorCell WallSweeper::mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted) const {
+MirrorCell WallSweeper::mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted, Index& hint) const {
   fluid::Grid const& grid = flow_.grid();
-  Projection const p = record_->project(c, direction, side);
+  Projection const p = record_->project(c, direction, side, hint);
   if (!p.found) return {};
   Vec3 const image = 2.0 * p.point - grid.centre(c);
   Real const h = smallest_spacing(grid);
@@ -66,12 +66,15 @@ void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction) 
   wall.parted[d].clear();
   Index const n = block.size()[d], ghost = block.ghost()[d];
   fluid::Grid const& grid = flow_.grid();
+  Index first_nearest[2] = {-1, -1};  // of the last run that ended at this side: mostly next to it
   auto const wall_end = [&](CellIndex last, int outwards) {
     WallBlock::RunEnd end;
+    Index hint = first_nearest[outwards > 0];
     for (std::size_t m = 0; m < 3; ++m) {
       CellIndex c = last;
       c[d] += outwards * (static_cast<Index>(m) + 1);
-      end.mirror[m] = mirror(c, direction, -outwards, wall.images);
+      end.mirror[m] = mirror(c, direction, -outwards, wall.images, hint);
+      if (m == 0) first_nearest[outwards > 0] = hint;
       end.general[m] = end.mirror[m].place < 0 && m < 2 && record_->solid(c);
     }
     ends.push_back(end);
@@ -132,9 +135,10 @@ void WallSweeper::find_solid(Block const& block, WallBlock& wall) {
   std::vector<GlobalId> near;
   for (CellIndex const& c : near_.cells()) near.push_back(grid.cell_id(c));
   std::sort(near.begin(), near.end());
+  Index hint = -1;
   for (GlobalId const id : near) {
     CellIndex const c = cell_from_id(grid, id);
-    MirrorCell const m = mirror(c, -1, 0, wall.images);
+    MirrorCell const m = mirror(c, -1, 0, wall.images, hint);
     wall.solid.emplace_back(CellIndex{c[0] - first[0], c[1] - first[1], c[2] - first[2]}, m);
   }
 }

@@ -32,18 +32,28 @@ Real CutCells::half_riemann(State const& u, Vec3 const& wall_velocity, Vec3 cons
 void CutCells::find_vacuum(WallRecord const& record, bool initial) {
   fluid::Grid const& grid = flow_.grid();
   vacuum_.clear();
+  CellBox around{grid.cells, {0, 0, 0}};  // this rank's blocks
+  for (fluid::Block const& block : std::as_const(flow_).blocks())
+    for (std::size_t d = 0; d < 3; ++d) {
+      CellBox const box = box_of(block);
+      around.low[d] = std::min(around.low[d], box.low[d]);
+      around.high[d] = std::max(around.high[d], box.high[d]);
+    }
+  near_.start(around);
   for (CutCell const& cut : record.geometry.cells)
     for_neighbourhood(grid, cut.cell, 1, [&](CellIndex n) {
-      if (!grid.inside(n) || !owned(n) || record_.solid(n)) return;
-      fluid::Block const& block = *flow_.find(grid.block_of(n));
-      CellIndex const first = block.first();
-      Index const i = n[0] - first[0], j = n[1] - first[1], k = n[2] - first[2];
-      WallBlock const& wall = sweeper_.blocks().at(block.id());
-      if (flow_.gas().vacuum(initial ? block.load(i, j, k) : wall.before[wall.cell(i, j, k)]))
-        vacuum_.push_back(grid.cell_id(n));
+      if (around.holds(n)) near_.insert(n);
     });
+  for (CellIndex const& n : near_.cells()) {
+    if (record_.solid(n) || !owned(n)) continue;
+    fluid::Block const& block = *flow_.find(grid.block_of(n));
+    CellIndex const first = block.first();
+    Index const i = n[0] - first[0], j = n[1] - first[1], k = n[2] - first[2];
+    WallBlock const& wall = sweeper_.blocks().at(block.id());
+    if (flow_.gas().vacuum(initial ? block.load(i, j, k) : wall.before[wall.cell(i, j, k)]))
+      vacuum_.push_back(grid.cell_id(n));
+  }
   std::sort(vacuum_.begin(), vacuum_.end());
-  vacuum_.erase(std::unique(vacuum_.begin(), vacuum_.end()), vacuum_.end());
   std::map<int, parallel::Bytes> to;
   for (GlobalId const id : vacuum_) {
     CellIndex const c = cell_from_id(grid, id);

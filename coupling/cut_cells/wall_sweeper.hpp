@@ -97,7 +97,7 @@ class WallSweeper : public fluid::BlockSweeper {
   bool two_sides(CellIndex low, int direction) const;
   void find_runs(fluid::Block const& block, WallBlock& wall, int direction);
   void find_solid(fluid::Block const& block, WallBlock& wall);
-  MirrorCell mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted) const;
+  MirrorCell mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted, Index& hint) const;
   void refresh_mirrors();
   fluid::State image(MirrorCell const& mirror) const;
   void flux_between_solids(fluid::Block const& block, WallBlock& wall, int direction, Real sigma) const;

@@ -1,16 +1,13 @@
 #include "coupling/geometry/bench.hpp"
 
-#include <ctime>
-
 #include "coupling/geometry/nearest.hpp"
 #include "coupling/geometry/swept.hpp"
 
 namespace brisance::coupling {
 namespace {
 
-constexpr Real cells = 48, radius = 0.3 * cells;
+constexpr Real cells = bench_cells, radius = 0.3 * cells;
 Vec3 const centre{0.503 * cells, 0.497 * cells, 0.511 * cells};
-constexpr int runs = 5;
 
 /// Four triangles out of one, `level` times; both triangles of an edge compute the same middle.
 void refine(std::array<Vec3, 3> const& t, int level, std::vector<SurfaceTriangle>& out) {
@@ -28,7 +25,11 @@ void refine(std::array<Vec3, 3> const& t, int level, std::vector<SurfaceTriangle
   refine({a, b, c}, level - 1, out);
 }
 
-std::vector<SurfaceTriangle> sphere() {
+constexpr CellBox everywhere{{-1000, -1000, -1000}, {1000, 1000, 1000}};
+
+}  // namespace
+
+std::vector<SurfaceTriangle> bench_sphere() {
   Real const golden = (1 + std::sqrt(5.0)) / 2, s = 1 / std::sqrt(1 + golden * golden), g = golden * s;
   std::array<Vec3, 12> const p{{{-s, g, 0},
                                 {s, g, 0},
@@ -51,29 +52,12 @@ std::vector<SurfaceTriangle> sphere() {
   return out;
 }
 
-/// Best of several runs of `work`, which returns its number of items.
-template <class Work>
-GeometryRate best(Work&& work) {
-  GeometryRate rate;
-  for (int run = 0; run < runs; ++run) {
-    std::clock_t const start = std::clock();
-    auto const items = static_cast<Real>(work());
-    Real const seconds = static_cast<Real>(std::clock() - start) / CLOCKS_PER_SEC;
-    if (run == 0 || seconds * rate.items < rate.seconds * items) rate = {items, seconds};
-  }
-  return rate;
-}
-
-constexpr CellBox everywhere{{-1000, -1000, -1000}, {1000, 1000, 1000}};
-
-}  // namespace
-
 GeometryRate bench_cut_cells() {
   Lattice const lattice;
-  auto triangles = sphere();
+  auto triangles = bench_sphere();
   Geometry geometry;
   std::vector<Swept> parts;
-  return best([&] {
+  return best_rate([&] {
     std::size_t items = 0;
     for (int step = 0; step < 4; ++step) {
       for (auto& t : triangles)
@@ -93,11 +77,11 @@ GeometryRate bench_cut_cells() {
 
 GeometryRate bench_closest_points() {
   Lattice const lattice;
-  auto const triangles = sphere();
+  auto const triangles = bench_sphere();
   Geometry geometry;
   build(lattice, triangles, std::span(&everywhere, 1), geometry);
   Real farthest = 0;  // keeps the work
-  auto rate = best([&] {
+  auto rate = best_rate([&] {
     std::size_t items = 0;
     for (std::size_t c = 1; c + 1 < geometry.cells.size(); ++c) {
       auto const& cell = geometry.cells[c].cell;

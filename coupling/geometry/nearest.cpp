@@ -1,5 +1,7 @@
 #include "coupling/geometry/nearest.hpp"
 
+#include <limits>
+
 namespace brisance::coupling {
 namespace {
 
@@ -69,6 +71,22 @@ Nearest closest_point(Lattice const& lattice, SurfaceTriangle const& triangle, V
   std::array<Vertex, 3> const v{
       {{triangle.x_new[0], {1, 0, 0}}, {triangle.x_new[1], {0, 1, 0}}, {triangle.x_new[2], {0, 0, 1}}}};
   return on_polygon({v.data(), lattice.dimension == 3 ? 3u : 2u}, x);
+}
+
+Facet facet(Lattice const& lattice, Geometry const& geometry, Piece const& piece) {
+  constexpr Real endless = std::numeric_limits<Real>::infinity();
+  constexpr Real wider = 1e-9;  // of a cell: beyond all rounding of closest points
+  Facet f{{endless, endless, endless}, {-endless, -endless, -endless}, piece.area, piece.centroid, 0};
+  f.grazing = 0.05 * norm(piece.area);
+  for (Corner const& corner : geometry.corners_of(piece)) {
+    Vec3 const x = lattice.position(corner.point);
+    for (int d = 0; d < 3; ++d) {
+      f.low[d] = min(f.low[d], x[d] - wider * lattice.spacing[d]);
+      f.high[d] = max(f.high[d], x[d] + wider * lattice.spacing[d]);
+    }
+  }
+  if (lattice.dimension == 2) f.low.z = -endless, f.high.z = endless;
+  return f;
 }
 
 Nearest closest_point(Lattice const& lattice, Geometry const& geometry, Piece const& piece, Vec3 const& x) {
