@@ -1,6 +1,8 @@
 brisance_test(drivers_test SOURCES unit/drivers/times_test.cpp unit/drivers/scene_test.cpp LINKS brisance::drivers LABELS unit)
 brisance_test(stage_ledger SOURCES verification/stage_ledger_test.cpp LINKS brisance::drivers RANKS 1 3
               LABELS "verification;parallel")
+brisance_test(contact_in_sub_steps SOURCES verification/contact_in_sub_steps_test.cpp LINKS brisance::drivers
+              LABELS verification)
 
 # One message and one exit code, whoever fails.
 add_executable(guard_probe support/guard_probe.cpp)

@@ -42,6 +42,8 @@ brisance_same_digest(blast-bricks ${scenes}/blast-bricks.toml 40 --set "fluid.ce
 # The other time couplings, and sub-steps of the solid: as its limits ask (bursting-shell), or as the scene says.
 brisance_same_digest(bursting-explicit ${scenes}/bursting-shell.toml 60 --set "coupling.scheme=\"explicit\"")
 brisance_same_digest(bursting-semi ${scenes}/bursting-shell.toml 40 --set "coupling.scheme=\"semi\"" --set coupling.sub_steps=2)
+brisance_same_digest(colliding-explicit ${scenes}/colliding-fragments.toml 120 --set "fluid.cells=[50, 50]"
+                     --set "coupling.scheme=\"explicit\"")
 brisance_same_digest(sub-steps ${PROJECT_SOURCE_DIR}/tests/support/scenes/sub-steps.toml 24)
 brisance_same_digest(sub-steps-explicit ${PROJECT_SOURCE_DIR}/tests/support/scenes/sub-steps.toml 24
                      --set "coupling.scheme=\"explicit\"")
