@@ -88,13 +88,12 @@ void Output::write_fields(std::string const& path) {
   }
   if (world_.cut_cells) {
     std::vector<double> fraction;
-    Real const full = grid.cell_volume();
     for (fluid::Block const& b : std::as_const(flow).blocks()) {
       fluid::CellIndex const first = b.first();
       for (Index k = 0; k < b.size()[2]; ++k)
         for (Index j = 0; j < b.size()[1]; ++j)
           for (Index i = 0; i < b.size()[0]; ++i)
-            fraction.push_back(1 - world_.cut_cells->fluid_volume({first[0] + i, first[1] + j, first[2] + k}) / full);
+            fraction.push_back(world_.cut_cells->solid_fraction({first[0] + i, first[1] + j, first[2] + k}));
     }
     file.grid("solid_fraction", cells, 1, boxes, fraction, true);
   }

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "coupling/geometry/cut_geometry.hpp"
+#include "coupling/cut_cells/wall_record.hpp"
 #include "parallel/error.hpp"
 
 namespace brisance::drivers {
@@ -31,7 +31,7 @@ bool two_sided(coupling::Geometry const& geometry, coupling::CutCell const& cut)
 
 }  // namespace
 
-WallSurvey survey_walls(fluid::Grid const& grid, solid::Mesh const& mesh, solid::Surface const& surface) {
+WallSurvey survey_walls(fluid::Grid const& grid, solid::Mesh const& mesh, solid::Surface const& surface, bool divides) {
   std::vector<coupling::SurfaceTriangle> triangles;
   std::vector<bool> moves;
   for (solid::Element const& t : surface.elements()) {
@@ -64,17 +64,28 @@ WallSurvey survey_walls(fluid::Grid const& grid, solid::Mesh const& mesh, solid:
       moving = moving || moves[static_cast<std::size_t>(geometry.pieces[static_cast<std::size_t>(f)].triangle)];
     ++survey.cells[block];
     survey.work[block] += price(grid.dimension, moving);
-    if (!two_sided(geometry, c)) continue;
+    if (divides || !two_sided(geometry, c)) continue;
     if (thin++ == 0) where = grid.centre(c.cell);
   }
   if (thin > 0)
     survey.thin = fmt::format(
         "coupling.cut_cells: in {} of {} cut cells, the first at ({:.6g}, {:.6g}, {:.6g}) m, both faces of a wall meet "
-        "the "
-        "one state of the gas in the cell: there it leaks. A wall of 0.8 cells loses half of a tenfold pressure, one "
-        "of "
-        "1.6 cells nothing: use cells that are smaller than half the wall",
+        "the one state of the gas in the cell: there it leaks. A wall of 0.8 cells loses half of a tenfold pressure, "
+        "one of 1.6 cells nothing. Nothing leaks where cells have a state for every part of their gas: with scheme "
+        "\"lag\" or \"semi\", small_cells \"merging\", profile \"constant\" and no viscosity; else use cells that are "
+        "smaller than half the wall",
         thin, geometry.cells.size(), where.x, where.y, where.z);
+  if (divides) {
+    coupling::CellParts parts;
+    coupling::divide(lattice, geometry, coupling::covered_fraction * grid.cell_volume(), parts);
+    Vec3 const at = grid.centre(parts.undivided_cell);
+    if (parts.undivided > 0)
+      survey.thin = fmt::format(
+          "coupling.cut_cells: in {} of {} cut cells, one of them at ({:.6g}, {:.6g}, {:.6g}) m, walls that overlap or "
+          "run along grid planes leave the gas on their sides one state: there it leaks. Move the body by a part of a "
+          "cell, or use cells that are smaller than half the wall",
+          parts.undivided, geometry.cells.size(), at.x, at.y, at.z);
+  }
   return survey;
 }
 

@@ -15,7 +15,8 @@ struct WallSurvey {
   std::string thin;                ///< a warning for people: walls thinner than a cell; empty: none
 };
 
-/// Errors: scene or numerical error when the surface is not closed, or is inside out.
-WallSurvey survey_walls(fluid::Grid const& grid, solid::Mesh const& mesh, solid::Surface const& surface);
+/// `divides`: cells have a state for every connected part of their gas; walls are then too thin only where a cell does
+/// not decompose. Errors: scene or numerical error when the surface is not closed, or is inside out.
+WallSurvey survey_walls(fluid::Grid const& grid, solid::Mesh const& mesh, solid::Surface const& surface, bool divides);
 
 }  // namespace brisance::drivers

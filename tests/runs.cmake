@@ -35,6 +35,7 @@ brisance_same_digest(ledger-by-stages ${scenes}/colliding-fragments.toml 60 --se
                      --set "output.ledger=\"stage\"")
 set_tests_properties(same_digest.ledger-by-stages PROPERTIES ENVIRONMENT BREAKING=1)
 brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40)
+brisance_same_digest(thin-shell ${scenes}/thin-shell.toml 12)
 brisance_same_digest(held-wall ${PROJECT_SOURCE_DIR}/tests/support/scenes/held-wall.toml 80)
 brisance_same_digest(bursting-shell ${scenes}/bursting-shell.toml 80)
 brisance_same_digest(colliding-fragments ${scenes}/colliding-fragments.toml 330)

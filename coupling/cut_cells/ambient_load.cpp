@@ -31,10 +31,11 @@ void CutCells::ambient_account(Real dt) {
   WallRecord const& loaded = scheme_ == TimeCoupling::explicit_load ? record_ : next_;
   for (CutCell const& cut : loaded.geometry.cells) {
     if (!owned(cut.cell)) continue;
-    Vec3 const pressure = swept_pressure(cut.cell);
+    Vec3 pressure = swept_pressure(cut.cell);
     for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
       Piece const& piece = loaded.geometry.pieces[static_cast<std::size_t>(f)];
       Real const chi = piece_factor_[static_cast<std::size_t>(f)];
+      if (divided_) pressure = unit_pressure(cut.cell, parts_.unit_of(f));
       Vec3 const beyond = force_on_solid(chi, pressure, piece.area) - force_of_gas(chi, pressure, piece.area);
       Real const work = dt * dot(beyond, loaded.wall_velocity(piece.triangle, piece.bary_centroid));
       for (int d = 0; d < 3; ++d) ambient_given_[static_cast<std::size_t>(d)].add(dt * beyond[d]);

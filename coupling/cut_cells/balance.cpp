@@ -61,9 +61,15 @@ void CutCells::transfers() {
         Vec3 place = middle - grid.centre(inside);
         for (int d = 0; d < 3; ++d)
           place[d] = d < grid.dimension ? clamp(place[d], -0.5 * grid.spacing[d], 0.5 * grid.spacing[d]) : 0;
-        transfers_.push_back(
-            {id_of(cut.cell), id_of(s.cell), grid.cell_id(inside), s.volume, place, piece.area, velocity});
-        if (wanted.empty() || wanted.back() != transfers_.back().state) wanted.push_back(transfers_.back().state);
+        Transfer t{id_of(cut.cell), id_of(s.cell), grid.cell_id(inside), s.volume, 0, 0, 0, place,
+                   piece.area,      velocity};
+        if (divided_) {
+          t.to_unit = parts_.unit_of(f);
+          t.from_unit = parts_.swept_unit(s.cell, f);
+          t.state_unit = parts_.swept_unit(inside, f);
+        }
+        transfers_.push_back(t);
+        if (!parts_.find(inside) && (wanted.empty() || wanted.back() != t.state)) wanted.push_back(t.state);
       }
     }
     cost_.moving += moving && here;
@@ -78,8 +84,14 @@ void CutCells::transfers() {
   });
 }
 
-State CutCells::content_before(CellIndex c) const {
+State CutCells::content_before(CellIndex c, std::size_t unit) const {
   fluid::Grid const& grid = flow_.grid();
+  if (CellUnits const* const units = parts_.find(c); units && units->before[unit] != 0) {
+    Content const here{grid.cell_id(c), {}, units->before[unit]};
+    if (here.unit < 0) return {};
+    auto const at = std::lower_bound(minor_.begin(), minor_.end(), here);
+    return at != minor_.end() && !(here < *at) ? at->amount : State{};
+  }
   if (record_.solid(c)) {
     GlobalId const id = grid.cell_id(c);
     auto const at =
@@ -90,7 +102,7 @@ State CutCells::content_before(CellIndex c) const {
   CellIndex const first = block.first();
   WallBlock const& wall = sweeper_.blocks().at(block.id());
   State u = wall.before[wall.cell(c[0] - first[0], c[1] - first[1], c[2] - first[2])];
-  Real const v = record_.volume(c);
+  Real const v = record_.main_volume(c);
   for (Real& x : u) x *= v;
   return u;
 }
@@ -127,23 +139,36 @@ void CutCells::update_contents(Real dt) {
   transfers();
 
   // The cells to rewrite: with pieces now or before, covered ones that hold something, and those a transfer touches.
-  std::vector<GlobalId> band;
+  // Divided cells and their neighbours exchange part by part.
+  std::vector<Content> band;
+  auto const enter = [&](GlobalId id) {
+    CellIndex const c = cell_from_id(grid, id);
+    if (!owned(c)) return;
+    std::size_t const units = parts_.units(c);
+    for (std::size_t unit = 0; unit < units; ++unit) band.push_back({id, {}, static_cast<Index>(unit)});
+  };
   for (WallRecord const* r : {&record_, &next_})
     for (CutCell const& cut : r->geometry.cells)
-      if (owned(cut.cell)) band.push_back(grid.cell_id(cut.cell));
-  for (Content const& k : kept_) band.push_back(k.cell);
+      if (grid.inside(cut.cell)) enter(grid.cell_id(cut.cell));
+  for (Content const& k : kept_) enter(k.cell);
   for (Transfer const& t : transfers_)
     for (GlobalId const id : {t.to, t.from})
-      if (id >= 0 && owned(cell_from_id(grid, id))) band.push_back(id);
+      if (id >= 0) enter(id);
+  if (divided_)
+    for (GlobalId const id : affected_) enter(id);
   std::sort(band.begin(), band.end());
-  band.erase(std::unique(band.begin(), band.end()), band.end());
-  contents_.clear();
+  band.erase(std::unique(band.begin(), band.end(), same_unit), band.end());
+  contents_ = std::move(band);
   balanced_.clear();
-  for (GlobalId const id : band) {
-    balanced_.push_back(cell_from_id(grid, id));
-    contents_.push_back({id, content_before(balanced_.back())});
+  std::vector<CellIndex> swept_cells;  // whose state the sweeps changed: once per cell
+  for (Content& c : contents_) {
+    CellIndex const cell = cell_from_id(grid, c.cell);
+    auto const unit = static_cast<std::size_t>(c.unit);
+    balanced_.push_back(cell);
+    if (main_before(cell, unit)) swept_cells.push_back(cell);
+    c.amount = content_before(cell, unit);
   }
-  if (stage_account_) stage_account_->begin_balance(balanced_, record_, counted());
+  if (stage_account_) stage_account_->begin_balance(swept_cells, record_, counted());
 
   pass_transfers(dt);
   charge(Part::transfers);
@@ -160,21 +185,22 @@ void CutCells::update_contents(Real dt) {
 }
 
 void CutCells::pass_transfers(Real dt) {
-  auto const content = [&](GlobalId id) -> State* {
-    auto const at = std::lower_bound(contents_.begin(), contents_.end(), id,
-                                     [](Content const& c, GlobalId i) { return c.cell < i; });
-    return at != contents_.end() && at->cell == id ? &at->amount : nullptr;
+  auto const content = [&](GlobalId id, std::size_t unit) -> State* {
+    Content const here{id, {}, static_cast<Index>(unit)};
+    auto const at = std::lower_bound(contents_.begin(), contents_.end(), here);
+    return at != contents_.end() && same_unit(*at, here) ? &at->amount : nullptr;
   };
   // In the order of pieces, which is that of cells and triangles on every rank.
   for (Transfer const& t : transfers_) {
-    State u = swept_states_[swept_states_.slot(t.state)];
+    Index const slot = swept_states_.slot(t.state);
+    State u = slot >= 0 ? swept_states_[slot] : state_before(cell_from_id(flow_.grid(), t.state), t.state_unit);
     if (linear_ && u[0] > 0) {
       // Gas that slides along the wall: the fluxes pass what stands half a step upstream.
       Vec3 const slip = beside(t.area, Vec3{u[1], u[2], u[3]} / u[0] - t.wall_velocity);
       u = sweeper_.profiles().value(t.state, u, t.place - 0.5 * dt * slip);
     }
-    if (State* to = content(t.to)) add(*to, t.volume, u);
-    if (State* from = content(t.from)) add(*from, -t.volume, u);
+    if (State* to = content(t.to, t.to_unit)) add(*to, t.volume, u);
+    if (State* from = content(t.from, t.from_unit)) add(*from, -t.volume, u);
     if (t.to < 0 || t.from < 0)
       for (std::size_t q = 0; q < 5; ++q) crossed_[q].add((t.to < 0 ? -t.volume : t.volume) * u[q]);
   }
@@ -188,6 +214,11 @@ void CutCells::pass_fluxes(int d, Real dt) {
     auto const [wall, local] = wall_block_of(cell);
     for (int side = 0; side < 2; ++side) {
       Real const share = side == 0 ? dt : -dt;
+      if (divided_ && affected(contents_[n].cell)) {
+        for_face(cell, static_cast<std::size_t>(contents_[n].unit), d, side, dt,
+                 [&](Real area, State const& flux) { add(amount, share * area, flux); });
+        continue;
+      }
       if (linear_) add(amount, share, profile_flux(cell, d, side));
       Real const aperture = next_.aperture(cell, d, side);
       if (aperture == 0) continue;
@@ -201,6 +232,14 @@ void CutCells::pass_fluxes(int d, Real dt) {
     State sum{};
     Real impulse = 0;
     for (SideFace const& face : faces) {
+      if (divided_ && affected(flow_.grid().cell_id(face.cell))) {
+        for (std::size_t unit = 0; unit < parts_.units(face.cell); ++unit)
+          for_face(face.cell, unit, d, side, dt, [&](Real open, State const& flux) {
+            add(sum, share * open, flux);
+            impulse += dt * open * std::abs(flux[1 + dir]);
+          });
+        continue;
+      }
       if (linear_) add(sum, share, profile_flux(face.cell, d, side));
       Real const area = next_.aperture(face.cell, d, side);
       if (area == 0) continue;
@@ -247,7 +286,7 @@ void CutCells::pass_exchange(Real dt) {
     if (scheme_ == TimeCoupling::explicit_load)
       exchange_of_start(cut, dt, contents_[n].amount);
     else
-      exchange_at_end(cut, dt, contents_[n].amount);
+      exchange_at_end(cut, static_cast<std::size_t>(contents_[n].unit), dt, contents_[n].amount);
   }
   if (scheme_ == TimeCoupling::explicit_load) exchange_outside(dt);
   if (ambient_pressure_) ambient_account(dt);
@@ -292,9 +331,10 @@ Vec3 CutCells::swept_pressure(CellIndex c) const {
   return pressure;
 }
 
-void CutCells::exchange_at_end(CutCell const& cut, Real dt, State& amount) {
-  Vec3 const pressure = swept_pressure(cut.cell);
+void CutCells::exchange_at_end(CutCell const& cut, std::size_t unit, Real dt, State& amount) {
+  Vec3 const pressure = unit_pressure(cut.cell, unit);
   for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
+    if (divided_ && parts_.unit_of(f) != unit) continue;
     Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
     Real const chi = piece_factor_[static_cast<std::size_t>(f)];
     // The same numbers as the force on the solid, with the opposite sign.

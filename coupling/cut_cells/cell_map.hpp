@@ -101,6 +101,7 @@ class CellSet {
     marks_.set(c, 1);
     cells_.push_back(c);
   }
+  bool holds(CellIndex c) const { return marks_.at(c) != 0; }
   std::vector<CellIndex> const& cells() const { return cells_; }
 
  private:

@@ -31,6 +31,7 @@ CutCells::CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flo
     r->set_grid(flow.grid());
     r->set_region(region);
   }
+  record_.divides = next_.divides = divides_cells(config, scheme);
   sweeper_.ambient = ambient;
   if (config.load == "relative") surface_.beyond_loads = ambient_pressure_.emplace(flow.gas().pressure(ambient));
   flow.set_sweeper(&sweeper_);
@@ -53,27 +54,31 @@ void CutCells::begin() {
   next_.triangles = record_.triangles;
   next_.rebuild();
   fluid::Grid const& grid = flow_.grid();
+  start_parts();
   contents_.clear();
   for (CutCell const& cut : record_.geometry.cells)
     if (owned(cut.cell)) {
       Block const& block = *flow_.find(grid.block_of(cut.cell));
       CellIndex const first = block.first();
       State u = block.load(cut.cell[0] - first[0], cut.cell[1] - first[1], cut.cell[2] - first[2]);
-      Real const v = record_.solid(cut.cell) ? 0 : record_.volume(cut.cell);
+      Real const v = fluid_volume(cut.cell);
       for (Real& x : u) x *= v;
       contents_.push_back({grid.cell_id(cut.cell), u});
     }
-  std::sort(contents_.begin(), contents_.end(), [](auto const& a, auto const& b) { return a.cell < b.cell; });
+  contents_.insert(contents_.end(), minor_.begin(), minor_.end());
+  std::sort(contents_.begin(), contents_.end());
   mix();
   sweeper_.rebuild(record_);
   std::vector<CellForce> forces;
   wall_pressure(record_, true, forces);
   surface_.apply(forces, LoadOf::present);
+  start_.clear();
   remark_on_start();
 }
 
-void CutCells::rebuild_record() {
+void CutCells::rebuild_record(CellParts const* before_opening) {
   record_.rebuild();
+  if (before_opening) keep_parts(*before_opening);
   sweeper_.rebuild(record_);
   quiet_ = 0;
   if (viscous_) viscous_->forget_plan();
@@ -85,6 +90,7 @@ fluid::ViscousWalls& CutCells::add_viscosity(fluid::Transport const& transport) 
                 "coupling.cut_cells.profile = \"" + config_.profile +
                     "\" does not go together with fluid.viscosity: friction at the walls is taken from full "
                     "cells beside cut cells of constant state; leave it \"constant\"");
+  record_.divides = next_.divides = false;  // friction is taken from one state of a cell
   viscous_ = std::make_unique<ViscousWall>(config_.wall.value_or(BodyWallConfig{}), transport, flow_, sweeper_, comm_);
   return *viscous_;
 }
@@ -132,12 +138,14 @@ void CutCells::join(Plan& plan) {
     surface_.save();
     broken_saved_ = broken_;
     kept_saved_ = kept_;
+    minor_saved_ = minor_;
   };
   keep.restore = [this] {
     surface_.restore();
     areal_mass_ = areal_masses(surface_.topology(), solid_.mesh());
     broken_ = broken_saved_;
     kept_ = kept_saved_;
+    minor_ = minor_saved_;
     surface_.send_triangles(record_.triangles);
     rebuild_record();
     for (auto& sum : crossed_) sum = {};
@@ -151,6 +159,13 @@ void CutCells::join(Plan& plan) {
     std::vector<double> rows;
     for (Content const& k : kept_) ids.push_back(k.cell), rows.insert(rows.end(), k.amount.begin(), k.amount.end());
     file.sparse("coupling/covered", 5, ids, rows);
+    if (!record_.divides) return;
+    ids.clear(), rows.clear();
+    for (Content const& m : minor_) {
+      ids.push_back(m.cell * static_cast<GlobalId>(most_parts) + m.unit);
+      rows.insert(rows.end(), m.amount.begin(), m.amount.end());
+    }
+    file.sparse("coupling/parts", 5, ids, rows);
   };
   keep.read = [this](parallel::ArchiveReader& file) {
     if (!broken_.empty() && gather_broken())
@@ -166,6 +181,18 @@ void CutCells::join(Plan& plan) {
       kept_.push_back(k);
     }
     std::sort(kept_.begin(), kept_.end(), [](auto const& a, auto const& b) { return a.cell < b.cell; });
+    minor_.clear();
+    if (record_.divides) {
+      parallel::ArchiveReader::Sparse const parts = file.sparse("coupling/parts", 5);
+      for (std::size_t s = 0; s < parts.ids.size(); ++s) {
+        GlobalId const id = parts.ids[s] / static_cast<GlobalId>(most_parts);
+        if (!owned(cell_from_id(flow_.grid(), id))) continue;
+        Content m{id, {}, static_cast<Index>(parts.ids[s] % static_cast<GlobalId>(most_parts))};
+        std::copy_n(parts.data.begin() + static_cast<std::ptrdiff_t>(5 * s), 5, m.amount.begin());
+        minor_.push_back(m);
+      }
+      std::sort(minor_.begin(), minor_.end());
+    }
     surface_.send_triangles(record_.triangles);
     rebuild_record();
   };
@@ -199,6 +226,10 @@ void CutCells::new_geometry() {
     news_ = true;
     build_next();
   }
+  if (divided_)
+    follow_parts();
+  else
+    parts_.clear();
   if (linear_) sweeper_.make_profiles(next_, !moved_);
 }
 
@@ -210,7 +241,8 @@ bool CutCells::build_next() {
     Stopwatch const watch(cost_.exchange_s);
     surface_.send_triangles(next_.triangles);
   }
-  std::int64_t folded = 0;
+  std::int64_t state[2] = {0, 0};  // folded, divided
+  std::int64_t& folded = state[0];
   try {
     Stopwatch const watch(cost_.geometry_s);
     next_.rebuild();
@@ -218,7 +250,9 @@ bool CutCells::build_next() {
     folded = 1;
     if (health_.good) health_ = {false, error.what()};
   }
-  comm_.sum(std::span(&folded, 1));
+  state[1] = !record_.parts.empty() || !next_.parts.empty();
+  comm_.sum(std::span(state));
+  divided_ = state[1] > 0;
   return folded == 0;
 }
 
@@ -250,32 +284,43 @@ void CutCells::mix() {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 
-  std::vector<NearCell> cells(ids.size());
+  std::vector<NearCell> cells;
+  cells.reserve(ids.size());
   Real const full = grid.cell_volume();
   std::size_t next_content = 0;
-  for (std::size_t n = 0; n < ids.size(); ++n) {
-    NearCell& cell = cells[n];
-    cell.id = ids[n];
-    cell.cell = cell_from_id(grid, ids[n]);
-    cell.volume = next_.volume(cell.cell);
-    cell.volume_before = record_.volume(cell.cell);
-    for (int d = 0; d < grid.dimension; ++d)
-      for (int side = 0; side < 2; ++side)
-        cell.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] = next_.aperture(cell.cell, d, side);
-    cell.mine = owned(cell.cell);
-    if (linear_ || config_.small_cells == "redistribution")
-      cell.place = grid.centre(cell.cell) + fluid_centroid(next_, cell.cell);
-    while (next_content < contents_.size() && contents_[next_content].cell < cell.id) ++next_content;
-    if (next_content < contents_.size() && contents_[next_content].cell == cell.id) {
-      cell.amount = contents_[next_content].amount;
-      cell.rewritten = true;
-    } else if (cell.mine && cell.volume > covered_fraction * full) {
-      Block const& block = *std::as_const(flow_).find(grid.block_of(cell.cell));
-      CellIndex const first = block.first();
-      cell.amount = block.load(cell.cell[0] - first[0], cell.cell[1] - first[1], cell.cell[2] - first[2]);
-      for (Real& x : cell.amount) x *= cell.volume;
+  for (GlobalId const id : ids) {
+    CellIndex const c = cell_from_id(grid, id);
+    CellUnits const* const units = parts_.find(c);
+    for (std::size_t unit = 0; unit < (units ? units->count : 1); ++unit) {
+      NearCell& cell = cells.emplace_back();
+      cell.id = id;
+      cell.cell = c;
+      cell.mine = owned(c);
+      cell.unit = static_cast<Index>(unit);
+      if (divided_) measure_unit(units, unit, cell);
+      if (!units) {
+        cell.volume = next_.volume(c);
+        cell.volume_before = record_.volume(c);
+        for (int d = 0; d < grid.dimension; ++d)
+          for (int side = 0; side < 2; ++side)
+            cell.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] = next_.aperture(c, d, side);
+      }
+      if (linear_ || config_.small_cells == "redistribution") cell.place = grid.centre(c) + fluid_centroid(next_, c);
+      Content const here{id, {}, cell.unit};
+      while (next_content < contents_.size() && contents_[next_content] < here) ++next_content;
+      if (next_content < contents_.size() && !(here < contents_[next_content])) {
+        cell.amount = contents_[next_content].amount;
+        cell.rewritten = true;
+      } else if (cell.mine && unit == 0 && cell.volume > covered_fraction * full) {
+        Block const& block = *std::as_const(flow_).find(grid.block_of(c));
+        CellIndex const first = block.first();
+        cell.amount = block.load(c[0] - first[0], c[1] - first[1], c[2] - first[2]);
+        for (Real& x : cell.amount) x *= cell.volume;
+      }
     }
   }
+  links_.clear();
+  if (divided_) link_near(cells);
   exchange_near(cells);
   if (config_.small_cells == "redistribution") {
     redistribute(flow_.gas(), next_, config_.small_cell, linear_ ? sweeper_.profile_kind : ProfileKind::all, cells);
@@ -283,7 +328,7 @@ void CutCells::mix() {
   }
 
   Merging merging =
-      merge_small_cells(grid, config_.small_cell, comm_.size() > 1 ? Sight::halo : Sight::everything, cells);
+      merge_small_cells(grid, config_.small_cell, comm_.size() > 1 ? Sight::halo : Sight::everything, cells, links_);
   if (comm_.size() > 1) {
     std::uint64_t outgrown = merging.outgrown ? 1 : 0;
     comm_.bit_or(std::span(&outgrown, 1));
@@ -294,42 +339,49 @@ void CutCells::mix() {
   if (linear_) spread(cells);
 }
 
+std::vector<int> CutCells::ranks_within(CellIndex c, Index halo) const {
+  fluid::Grid const& grid = flow_.grid();
+  std::vector<int> ranks;
+  CellBox const around = grown(grid, {c, {c[0] + 1, c[1] + 1, c[2] + 1}}, halo);
+  CellIndex low{}, high{};  // groups do not reach through periodic sides
+  for (std::size_t d = 0; d < 3; ++d) {
+    low[d] = std::max(around.low[d], 0);
+    high[d] = std::min(around.high[d], grid.cells[d]) - 1;
+  }
+  auto const b0 = grid.block_position(grid.block_of(low)), b1 = grid.block_position(grid.block_of(high));
+  for (Index bz = b0[2]; bz <= b1[2]; ++bz)
+    for (Index by = b0[1]; by <= b1[1]; ++by)
+      for (Index bx = b0[0]; bx <= b1[0]; ++bx) {
+        int const rank = flow_.owner(grid.block_id({bx, by, bz}));
+        if (rank != comm_.rank() && std::find(ranks.begin(), ranks.end(), rank) == ranks.end()) ranks.push_back(rank);
+      }
+  return ranks;
+}
+
 void CutCells::exchange_near(std::vector<NearCell>& cells) {
   if (comm_.size() == 1) return;
-  fluid::Grid const& grid = flow_.grid();
   struct Row {
     GlobalId id;
     State amount;
     std::int32_t rewritten, settled;
+    Index unit, none;
   };
   std::map<int, parallel::Bytes> to;
   for (NearCell const& cell : cells) {
     if (!cell.mine) continue;
-    std::vector<int> ranks;
-    CellBox const around =
-        grown(grid, {cell.cell, {cell.cell[0] + 1, cell.cell[1] + 1, cell.cell[2] + 1}}, mixing_halo);
-    CellIndex low{}, high{};  // groups do not reach through periodic sides
-    for (std::size_t d = 0; d < 3; ++d) {
-      low[d] = std::max(around.low[d], 0);
-      high[d] = std::min(around.high[d], grid.cells[d]) - 1;
-    }
-    auto const b0 = grid.block_position(grid.block_of(low)), b1 = grid.block_position(grid.block_of(high));
-    for (Index bz = b0[2]; bz <= b1[2]; ++bz)
-      for (Index by = b0[1]; by <= b1[1]; ++by)
-        for (Index bx = b0[0]; bx <= b1[0]; ++bx) {
-          int const rank = flow_.owner(grid.block_id({bx, by, bz}));
-          if (rank != comm_.rank() && std::find(ranks.begin(), ranks.end(), rank) == ranks.end()) ranks.push_back(rank);
-        }
-    for (int const rank : ranks) parallel::put(to[rank], Row{cell.id, cell.amount, cell.rewritten, cell.settled});
+    std::vector<int> const ranks = ranks_within(cell.cell, mixing_halo);
+    for (int const rank : ranks)
+      parallel::put(to[rank], Row{cell.id, cell.amount, cell.rewritten, cell.settled, cell.unit, 0});
   }
   std::vector<parallel::Message> out;
   for (auto& [rank, data] : to) out.push_back({rank, std::move(data)});
   for (parallel::Message const& message : comm_.deliver(std::move(out)))
     for (std::span<std::byte const> in(message.data); !in.empty();) {
       Row const row = parallel::take<Row>(in);
-      auto const at = std::lower_bound(cells.begin(), cells.end(), row.id,
-                                       [](NearCell const& c, GlobalId id) { return c.id < id; });
-      if (at != cells.end() && at->id == row.id)
+      auto const at = std::lower_bound(cells.begin(), cells.end(), row, [](NearCell const& c, Row const& r) {
+        return c.id != r.id ? c.id < r.id : c.unit < r.unit;
+      });
+      if (at != cells.end() && at->id == row.id && at->unit == row.unit)
         at->amount = row.amount, at->rewritten = row.rewritten != 0, at->settled = row.settled != 0;
     }
 }
@@ -338,8 +390,18 @@ void CutCells::store(std::vector<NearCell> const& cells) {
   fluid::Grid const& grid = flow_.grid();
   Real const full = grid.cell_volume();
   kept_.clear();
+  minor_.clear();
   for (NearCell const& cell : cells) {
     if (!cell.mine || !(cell.rewritten || cell.grouped)) continue;
+    if (cell.unit > 0) {
+      CellUnits const* const units = parts_.find(cell.cell);
+      if (cell.unit >= static_cast<Index>(units->after)) continue;  // its gas went to its group
+      Content m{cell.id, cell.amount, cell.unit};
+      if (cell.grouped) m.amount = cell.mean;
+      for (Real& x : m.amount) x *= cell.grouped ? cell.volume : 1;
+      minor_.push_back(m);
+      continue;
+    }
     bool const covered = cell.volume <= covered_fraction * full;
     State u = cell.mean;
     if (!cell.grouped) {
@@ -371,8 +433,18 @@ Merging CutCells::merge_everywhere(std::vector<NearCell>& cells) {
       all.push_back(parallel::take<NearCell>(in));
       all.back().mine = static_cast<int>(rank) == comm_.rank();
     }
-  std::sort(all.begin(), all.end(), [](NearCell const& a, NearCell const& b) { return a.id < b.id; });
-  Merging const merging = merge_small_cells(flow_.grid(), config_.small_cell, Sight::everything, all);
+  std::sort(all.begin(), all.end(),
+            [](NearCell const& a, NearCell const& b) { return a.id != b.id ? a.id < b.id : a.unit < b.unit; });
+  std::vector<NearLink> links;
+  if (divided_) {
+    bytes.clear();
+    for (NearLink const& link : links_)
+      if (owned(cell_from_id(flow_.grid(), link.from))) parallel::put(bytes, link);
+    for (parallel::Bytes const& from : comm_.all_gather(bytes))
+      for (std::span<std::byte const> in(from); !in.empty();) links.push_back(parallel::take<NearLink>(in));
+    std::sort(links.begin(), links.end());
+  }
+  Merging const merging = merge_small_cells(flow_.grid(), config_.small_cell, Sight::everything, all, links);
   cells = std::move(all);
   return merging;
 }
@@ -421,8 +493,9 @@ void CutCells::open_cracks() {
   // Faces that part coincide in the record: no aperture and no volume changes before they move.
   surface_.open(std::make_shared<solid::Surface>(solid_.mesh(), broken_, &surface_.topology()));
   areal_mass_ = areal_masses(surface_.topology(), solid_.mesh());
+  CellParts const old = record_.parts;
   surface_.send_triangles(record_.triangles);
-  rebuild_record();
+  rebuild_record(&old);
 }
 
 Verdict CutCells::judge() const { return health_; }
@@ -433,12 +506,13 @@ GlobalId CutCells::cut_cell_count() const {
 }
 
 void CutCells::account(Ledger& ledger) {
-  for (Content const& k : kept_) {
-    ledger.add(Entry::mass, k.amount[0]);
-    ledger.add(Entry::momentum_x, Vec3{k.amount[1], k.amount[2], k.amount[3]});
-    ledger.add(Entry::energy, k.amount[4]);
-    ledger.add(Entry::fluid_energy, k.amount[4]);
-  }
+  for (std::vector<Content> const* contents : {&kept_, &minor_})
+    for (Content const& k : *contents) {
+      ledger.add(Entry::mass, k.amount[0]);
+      ledger.add(Entry::momentum_x, Vec3{k.amount[1], k.amount[2], k.amount[3]});
+      ledger.add(Entry::energy, k.amount[4]);
+      ledger.add(Entry::fluid_energy, k.amount[4]);
+    }
   ledger.add(Entry::in_mass, crossed_[0]);
   for (std::size_t d = 0; d < 3; ++d)
     ledger.add(static_cast<Entry>(static_cast<std::size_t>(Entry::in_momentum_x) + d), crossed_[1 + d]);
@@ -461,6 +535,7 @@ void CutCells::account(Ledger& ledger) {
 void CutCells::digest(parallel::Digest& digest) const {
   constexpr std::uint32_t covered_kind = 3;
   for (Content const& k : kept_) digest.add(covered_kind, k.cell, k.amount);
+  for (Content const& m : minor_) digest.add(covered_kind + static_cast<std::uint32_t>(m.unit), m.cell, m.amount);
 }
 
 }  // namespace brisance::coupling

@@ -11,6 +11,7 @@
 #include "coupling/coupling_config.hpp"
 #include "coupling/cut_cells/light_solid.hpp"
 #include "coupling/cut_cells/mixing.hpp"
+#include "coupling/cut_cells/part_step.hpp"
 #include "coupling/cut_cells/stage_account.hpp"
 #include "coupling/cut_cells/start_exchange.hpp"
 #include "coupling/cut_cells/viscous_wall.hpp"
@@ -21,6 +22,12 @@
 #include "fluid/fluid_volume.hpp"
 
 namespace brisance::coupling {
+
+/// Whether cells that a thin wall divides have a state for every part of their gas: explicit loads, state
+/// redistribution and profiles know one state of a cell; so does viscosity, which forbids it by itself.
+inline bool divides_cells(CutCellsConfig const& config, TimeCoupling scheme) {
+  return scheme != TimeCoupling::explicit_load && config.small_cells == "merging" && config.profile == "constant";
+}
 
 class CutCells : public Effect {
  public:
@@ -45,8 +52,18 @@ class CutCells : public Effect {
   /// Sources change the flow at the ends of a step: mirror states are then made anew at its start.
   void expect_sources() { sources_ = true; }
 
-  /// Fluid volume of a cell at the present time, m3; 0 in solid cells.
-  Real fluid_volume(CellIndex c) const { return record_.solid(c) ? 0 : record_.volume(c); }
+  /// Fluid volume that the state of a cell stands for at the present time, m3; 0 in solid cells. Where a thin wall
+  /// divides a cell this is its largest part.
+  Real fluid_volume(CellIndex c) const { return record_.solid(c) ? 0 : record_.main_volume(c); }
+  /// Share of a cell that is solid.
+  Real solid_fraction(CellIndex c) const {
+    return record_.solid(c) ? 1 : 1 - record_.volume(c) / flow_.grid().cell_volume();
+  }
+  /// Calls visit(cell, area, content) for every part of the gas in the cut cells of this rank: the area of the wall
+  /// that it touches, a vector from solid to fluid, m2, and the integral of the state.
+  void for_parts(std::function<void(CellIndex, Vec3 const&, fluid::State const&)> const& visit) const;
+  /// Cells that opposite walls cross, and which keep one state all the same; of this rank, in this record.
+  Index undivided_cells() const { return record_.parts.undivided; }
   /// The same as the loops over the cells of the flow want it.
   fluid::FluidVolume fluid_volumes() const {
     return {[this](CellIndex c) { return fluid_volume(c); }, [this](Index block) { return sweeper_.handles(block); }};
@@ -57,8 +74,13 @@ class CutCells : public Effect {
  private:
   struct Content {
     GlobalId cell;
-    fluid::State amount;  ///< integral over the cell
+    fluid::State amount;  ///< integral over the cell, or over its unit
+    Index unit = 0;       ///< of a cell with parts (part_step.hpp)
+    friend bool operator<(Content const& a, Content const& b) {
+      return a.cell != b.cell ? a.cell < b.cell : a.unit < b.unit;
+    }
   };
+  static bool same_unit(Content const& a, Content const& b) { return a.cell == b.cell && a.unit == b.unit; }
   // stages
   void begin_step(Clock const& clock);
   void new_geometry();
@@ -92,7 +114,7 @@ class CutCells : public Effect {
   /// What the part of a triangle of next_ received on the boundary at the start.
   void take_part(Index triangle, TrianglePart const& part, StartExchange::Share const& share, Real dt,
                  fluid::State& amount);
-  void exchange_at_end(CutCell const& cut, Real dt, fluid::State& amount);
+  void exchange_at_end(CutCell const& cut, std::size_t unit, Real dt, fluid::State& amount);
   void exchange_of_start(CutCell const& cut, Real dt, fluid::State& amount);
   /// Pressures of the sweeps in an owned cell, Pa.
   Vec3 swept_pressure(CellIndex c) const;
@@ -132,8 +154,40 @@ class CutCells : public Effect {
   }
   Vec3 force_on_solid(Real chi, Vec3 const& pressure, Vec3 const& area) const;
   void require_identities(Clock const& clock) const;  ///< debug builds
-  void rebuild_record();
-  fluid::State content_before(CellIndex c) const;
+  /// `before_opening`: parts of the record whose contents are handed on to those of the new one.
+  void rebuild_record(CellParts const* before_opening = nullptr);
+  fluid::State content_before(CellIndex c, std::size_t unit) const;
+  // cells that a thin wall divides (divided_cells.cpp)
+  /// Collective. Parts at t^n and t^{n+1} are matched, and their states known around the blocks of this rank.
+  void follow_parts();
+  /// The cells whose faces are exchanged part by part: `affected_`.
+  void find_affected();
+  bool affected(GlobalId cell) const { return std::binary_search(affected_.begin(), affected_.end(), cell); }
+  /// Collective. States of the parts of the initial fields.
+  void start_parts();
+  /// Collective. Contents of the parts after faces parted in the record, whose volumes are what they were.
+  void keep_parts(CellParts const& old);
+  /// What a unit held at t^n for its volume; none when it is new or was covered.
+  std::optional<fluid::State> own_state_before(CellIndex c, std::size_t unit) const;
+  /// The same, or what stands in the widest opening of the unit.
+  fluid::State state_before(CellIndex c, std::size_t unit) const;
+  /// Whether fields and sweeps knew the unit as the cell.
+  bool main_before(CellIndex c, std::size_t unit) const {
+    CellUnits const* const u = parts_.find(c);
+    return !u || u->before[unit] == 0;
+  }
+  /// Flux through an opening of the high face of `low` between two units, and calls of visit(area, flux) for those of
+  /// a unit in a face of an owned cell.
+  fluid::State opening_flux(CellIndex low, int d, std::size_t low_unit, std::size_t high_unit, CellIndex at, Real dt);
+  void for_face(CellIndex c, std::size_t unit, int d, int side, Real dt,
+                std::function<void(Real, fluid::State const&)> const& visit);
+  /// State of a minor part in the initial fields.
+  fluid::State start_state(CellIndex c, std::size_t part) const;
+  /// Pressures on the pieces of a unit, Pa.
+  Vec3 unit_pressure(CellIndex c, std::size_t unit) const;
+  void measure_unit(CellUnits const* units, std::size_t unit, NearCell& cell) const;
+  void link_near(std::vector<NearCell> const& cells);
+  std::vector<int> ranks_within(CellIndex c, Index halo) const;
   /// What the profiles add to the flux through a face of `c`, times its area: of its open part, whose centroid is not
   /// that of the face, and of the part that the wall opened or closed in this step.
   fluid::State profile_flux(CellIndex c, int d, int side) const;
@@ -176,12 +230,21 @@ class CutCells : public Effect {
     GlobalId to, from;  ///< -1: beyond an open side of the domain
     GlobalId state;     ///< the cell whose gas it is
     Real volume;
+    std::size_t to_unit, from_unit, state_unit;
     Vec3 place;  ///< about where it comes from, m from the centre of `state`
     Vec3 area, wall_velocity;
   };
   std::vector<Transfer> transfers_;
   std::vector<Content> moved_contents_;
   StateGather swept_states_, around_groups_;
+  PartStep parts_;                            ///< cells that a thin wall divides, through the step
+  bool divided_ = false;                      ///< on any rank
+  std::vector<Content> minor_, minor_saved_;  ///< contents of the parts but the largest of owned cells, at t^n
+  std::vector<Content> start_;                ///< initial states (not contents) of the same, until the run begins
+  std::vector<Content> minor_near_;           ///< the same around the blocks of this rank
+  std::vector<GlobalId> affected_;            ///< divided cells and their neighbours, sorted
+  StateGather main_states_;                   ///< of them at t^n
+  std::vector<NearLink> links_;
   CellSet near_;  ///< work space
   Verdict health_;
 

@@ -14,8 +14,9 @@ namespace {
 
 class Merger {
  public:
-  Merger(fluid::Grid const& grid, Real small_cell, Sight sight, std::vector<NearCell>& cells)
-      : near_(grid, cells),
+  Merger(fluid::Grid const& grid, Real small_cell, Sight sight, std::vector<NearCell>& cells,
+         std::span<NearLink const> links)
+      : near_(grid, cells, links),
         grid_(grid),
         full_(grid.cell_volume()),
         small_(small_cell * full_),
@@ -29,9 +30,12 @@ class Merger {
   Merging run() {
     for (Index i = 0; i < count(); ++i) {
       NearCell const& c = cell(i);
+      for (Index j = i - 1; c.share >= 0 && j >= 0 && cell(j).id == c.id; --j)
+        if (cell(j).share == c.share) unite(j, i);
       bool const covered = c.volume <= covered_fraction * full_;
       if (c.amount == State{}) continue;  // a void has nothing to share, in a crack that opens as in a covered cell
-      if (c.settled || (!covered && (c.volume >= small_ || near_.drains(c)))) continue;
+      bool const whole = c.unit == 0 && c.volume >= small_;
+      if (c.settled || (!covered && (whole || near_.drains(c)))) continue;
       Index const t = near_.target(i, {});
       if (t >= 0) unite(i, t);
     }
@@ -83,20 +87,24 @@ class Merger {
   Index growth(Index group) {
     Index best = -1;
     Real best_score = 0;
+    auto const offer = [&](Index j, Real area, int d) {
+      if (j < 0 || root(j) == group || cell(j).volume <= 0) return;
+      Index const other = root(j);
+      bool const positive = !inadmissible(volume_[at(other)], amount_[at(other)]);
+      Real const score = cell(j).volume / grid_.cell_volume() + 2 * area / grid_.face_area(d) + (positive ? 1 : 0);
+      NearCells::consider(j, score, best, best_score);
+    };
     for (Index i = group; i >= 0; i = next_[at(i)]) {
+      if (cell(i).linked) {
+        for (NearLink const& link : near_.links(cell(i)))
+          offer(near_.find(link.to, link.to_unit), link.area, link.direction);
+        continue;
+      }
       for (int d = 0; d < grid_.dimension; ++d)
         for (int side = 0; side < 2; ++side) {
           CellIndex n = cell(i).cell;
           n[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
-          Index const j = near_.find(n);
-          if (j < 0 || root(j) == group || cell(j).volume <= 0) continue;
-          Index const other = root(j);
-          bool const positive = !inadmissible(volume_[at(other)], amount_[at(other)]);
-          Real const score =
-              cell(j).volume / grid_.cell_volume() +
-              2 * cell(i).aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] / grid_.face_area(d) +
-              (positive ? 1 : 0);
-          NearCells::consider(j, score, best, best_score);
+          offer(near_.find(n), cell(i).aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)], d);
         }
     }
     return best >= 0 ? best : nearest_fluid(group);
@@ -168,8 +176,9 @@ class Merger {
 
 }  // namespace
 
-Merging merge_small_cells(fluid::Grid const& grid, Real small_cell, Sight sight, std::vector<NearCell>& cells) {
-  return Merger(grid, small_cell, sight, cells).run();
+Merging merge_small_cells(fluid::Grid const& grid, Real small_cell, Sight sight, std::vector<NearCell>& cells,
+                          std::span<NearLink const> links) {
+  return Merger(grid, small_cell, sight, cells, links).run();
 }
 
 }  // namespace brisance::coupling

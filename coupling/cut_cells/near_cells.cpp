@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 
@@ -23,6 +24,33 @@ Index NearCells::find(CellIndex c) const {
   return f != cells_.end() && f->id == id ? static_cast<Index>(f - cells_.begin()) : -1;
 }
 
+Index NearCells::find(GlobalId cell, Index unit) const {
+  auto const f = std::lower_bound(cells_.begin(), cells_.end(), std::pair(cell, unit), [](NearCell const& n, auto x) {
+    return n.id != x.first ? n.id < x.first : n.unit < x.second;
+  });
+  return f != cells_.end() && f->id == cell && f->unit == unit ? static_cast<Index>(f - cells_.begin()) : -1;
+}
+
+std::span<NearLink const> NearCells::links(NearCell const& c) const {
+  NearLink const low{c.id, c.unit, std::numeric_limits<GlobalId>::min(), 0, 0, 0};
+  NearLink const high{c.id, c.unit, std::numeric_limits<GlobalId>::max(), 0, 0, 0};
+  return {std::lower_bound(links_.begin(), links_.end(), low), std::upper_bound(links_.begin(), links_.end(), high)};
+}
+
+Index NearCells::linked_target(Index i, std::span<Index const> taken) const {
+  NearCell const& c = cell(i);
+  Index best = -1, largest = -1;
+  Real best_score = 0, largest_volume = 0;
+  for (NearLink const& link : links(c)) {
+    Index const j = find(link.to, link.to_unit);
+    Real const a = link.area / grid_.face_area(link.direction);
+    if (j < 0 || j == i || !(a > 1e-12) || std::find(taken.begin(), taken.end(), j) != taken.end()) continue;
+    consider(j, cell(j).volume, largest, largest_volume);
+    if (cell(j).volume > c.volume) consider(j, a + 0.5 * cell(j).volume / grid_.cell_volume(), best, best_score);
+  }
+  return best >= 0 ? best : largest;
+}
+
 bool NearCells::drains(NearCell const& c) const {
   Real widest = 0;
   for (int d = 0; d < grid_.dimension; ++d)
@@ -33,6 +61,7 @@ bool NearCells::drains(NearCell const& c) const {
 
 Index NearCells::target(Index i, std::span<Index const> taken) const {
   NearCell const& c = cell(i);
+  if (c.linked) return linked_target(i, taken);
   auto const offered = [&](Index j) {
     return j >= 0 && j != i && std::find(taken.begin(), taken.end(), j) == taken.end();
   };

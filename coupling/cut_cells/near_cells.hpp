@@ -12,9 +12,13 @@ bool inadmissible(Real volume, fluid::State const& m);
 /// A list of cells sorted by id, seen as a part of the grid.
 class NearCells {
  public:
-  NearCells(fluid::Grid const& grid, std::vector<NearCell> const& cells) : grid_(grid), cells_(cells) {}
+  NearCells(fluid::Grid const& grid, std::vector<NearCell> const& cells, std::span<NearLink const> links = {})
+      : grid_(grid), cells_(cells), links_(links) {}
   /// Place of a cell in the list; -1: not in it.
   Index find(CellIndex c) const;
+  Index find(GlobalId cell, Index unit) const;
+  /// What a linked cell opens to.
+  std::span<NearLink const> links(NearCell const& c) const;
   /// A cell of a gap between walls lets its content out as fast as a full cell, when its faces are as open as it is,
   /// and its walls are not about to crush or to stretch it: it keeps its own state, and gas enters a crack cell by
   /// cell.
@@ -28,9 +32,11 @@ class NearCells {
   }
 
  private:
+  Index linked_target(Index i, std::span<Index const> taken) const;
   NearCell const& cell(Index i) const { return cells_[static_cast<std::size_t>(i)]; }
   fluid::Grid const& grid_;
   std::vector<NearCell> const& cells_;
+  std::span<NearLink const> links_;
 };
 
 }  // namespace brisance::coupling

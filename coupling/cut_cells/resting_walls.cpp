@@ -193,6 +193,11 @@ std::vector<GlobalId> WallRecord::resting_beside(Geometry const& moving) const {
 }
 
 void WallRecord::rebuild() {
+  cut_all();
+  if (divides) divide(lattice_, geometry, covered_fraction * cell_volume_, parts);
+}
+
+void WallRecord::cut_all() {
   try {
     std::vector<GlobalId> const unmoved = unmoved_surfaces();
     if (++rebuilds_ % 64 == 0) beside_.clear();  // maybe they are alone again

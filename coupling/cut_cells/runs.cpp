@@ -8,17 +8,48 @@ namespace brisance::coupling {
 
 using fluid::Block;
 
-MirrorCell WallSweeper::mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted, Index& hint) const {
+bool WallSweeper::find_same_side(CellIndex const& home, CellIndex const& image) {
+  if (record_->parts.empty()) return false;
+  fluid::Grid const& grid = flow_.grid();
+  CellBox box{home, {home[0] + 1, home[1] + 1, home[2] + 1}};
+  for (std::size_t d = 0; d < 3; ++d) {
+    box.low[d] = std::min(box.low[d], image[d]);
+    box.high[d] = std::max(box.high[d], image[d] + 1);
+  }
+  box = grown(grid, box, 3);
+  for (std::size_t d = 0; d < 3; ++d)
+    box.low[d] = std::max(box.low[d], 0), box.high[d] = std::min(box.high[d], grid.cells[d]);
+  if (!record_->parts.any_within(box)) return false;
+  // The marks cover the box and nothing else: a flood stops at its sides.
+  same_side_.start(box);
+  same_side_.insert(home);
+  for (std::size_t next = 0; next < same_side_.cells().size(); ++next) {
+    CellIndex const c = same_side_.cells()[next];
+    for (int d = 0; d < grid.dimension; ++d)
+      for (int side = 0; side < 2; ++side) {
+        CellIndex n = c;
+        n[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
+        if (!box.holds(n) || same_side_.holds(n) || record_->solid(n)) continue;
+        if (record_->aperture(c, d, side) > 0 && record_->parts.joined(side == 0 ? n : c, d)) same_side_.insert(n);
+      }
+  }
+  return true;
+}
+
+MirrorCell WallSweeper::mirror(CellIndex c, int direction, int side, CellIndex const* home,
+                               std::vector<GlobalId>& wanted, Index& hint) {
   fluid::Grid const& grid = flow_.grid();
   Projection const p = record_->project(c, direction, side, hint);
   if (!p.found) return {};
   Vec3 const image = 2.0 * p.point - grid.centre(c);
   Real const h = smallest_spacing(grid);
+  CellIndex chosen = into_domain(grid, cell_of(grid, image));
+  bool const thin = home && find_same_side(*home, chosen);
   auto const acceptable = [&](CellIndex n) {
     if (!grid.inside(n) || record_->solid(n)) return false;
+    if (thin && !same_side_.holds(n)) return false;
     return direction < 0 || dot(grid.centre(n) - p.point, p.normal) > -0.5 * h;
   };
-  CellIndex chosen = into_domain(grid, cell_of(grid, image));
   if (!acceptable(chosen)) {
     CellIndex const middle = chosen;
     Real best = -1;
@@ -46,11 +77,16 @@ bool WallSweeper::two_sides(CellIndex low, int direction) const {
     return record_->aperture(c, along, side) > covered_fraction * record_->lattice().face_area(along);
   };
   if (open(low, direction, 1)) return false;
+  if (record_->parts.find(low) || record_->parts.find(high)) return true;
   // Around the edge of the face, as over a crest of the wall, it is the same fluid.
   for (int e = 0; e < grid.dimension; ++e)
     for (int side = 0; e != direction && side < 2; ++side) {
       CellIndex beside = low;
       beside[static_cast<std::size_t>(e)] += side == 0 ? -1 : 1;
+      CellIndex across = beside;
+      ++across[d];
+      // What opens there may be the gas of either side.
+      if (record_->parts.find(beside) || record_->parts.find(across)) continue;
       if (open(low, e, side) && open(high, e, side) && open(beside, direction, 1)) return false;
     }
   return true;
@@ -73,7 +109,7 @@ void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction) 
     for (std::size_t m = 0; m < 3; ++m) {
       CellIndex c = last;
       c[d] += outwards * (static_cast<Index>(m) + 1);
-      end.mirror[m] = mirror(c, direction, -outwards, wall.images, hint);
+      end.mirror[m] = mirror(c, direction, -outwards, &last, wall.images, hint);
       if (m == 0) first_nearest[outwards > 0] = hint;
       end.general[m] = end.mirror[m].place < 0 && m < 2 && record_->solid(c);
     }
@@ -96,7 +132,11 @@ void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction) 
         if (g[d] < 0 || g[d] >= grid.cells[d]) g = into_domain(grid, g);
         return record_->solid(g);
       };
-      auto const parted = [&](Index i) { return two_sides(global(i), direction); };
+      auto const parted = [&](Index i) {
+        if (two_sides(global(i), direction)) return true;
+        return !record_->parts.empty() && grid.inside(global(i)) && grid.inside(global(i + 1)) &&
+               !record_->parts.joined(global(i), direction);
+      };
       Index i = -ghost;
       while (i < n + ghost) {
         while (i < n + ghost && is_solid(i)) ++i;
@@ -138,7 +178,7 @@ void WallSweeper::find_solid(Block const& block, WallBlock& wall) {
   Index hint = -1;
   for (GlobalId const id : near) {
     CellIndex const c = cell_from_id(grid, id);
-    MirrorCell const m = mirror(c, -1, 0, wall.images, hint);
+    MirrorCell const m = mirror(c, -1, 0, nullptr, wall.images, hint);
     wall.solid.emplace_back(CellIndex{c[0] - first[0], c[1] - first[1], c[2] - first[2]}, m);
   }
 }

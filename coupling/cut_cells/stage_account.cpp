@@ -30,7 +30,7 @@ void StageAccount::begin_balance(std::span<CellIndex const> cells, WallRecord co
     CellIndex const first = flow_.find(id)->first();
     WallBlock const& wall = sweeper_.blocks().at(id);
     std::size_t const at = wall.cell(c[0] - first[0], c[1] - first[1], c[2] - first[2]);
-    Real const volume = record.volume(c);
+    Real const volume = record.main_volume(c);
     for (std::size_t n = 0; n < held.size(); ++n) {
       State const& u = n == 0 ? wall.before[at] : swept_[n - 1].second.at(id)[at];
       for (std::size_t q = 0; q < 5; ++q) held[n][q].add(volume * u[q]);

@@ -84,18 +84,32 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
     CellIndex const first = block.first();
     Index const i = cut.cell[0] - first[0], j = cut.cell[1] - first[1], k = cut.cell[2] - first[2];
     WallBlock const& wall = sweeper_.blocks().at(block.id());
-    State const u = initial ? block.load(i, j, k) : wall.before[wall.cell(i, j, k)];
+    State const main = initial ? block.load(i, j, k) : wall.before[wall.cell(i, j, k)];
     // The factor is 1 in or next to a vacuum cell.
     bool vacuum = false;
     if (!vacuum_.empty())
       for_neighbourhood(grid, cut.cell, 1, [&](CellIndex n) {
         vacuum = vacuum || (grid.inside(n) && std::binary_search(vacuum_.begin(), vacuum_.end(), grid.cell_id(n)));
       });
-    Vec3 pressure;
+    Vec3 main_pressure;
     for (int d = 0; d < grid.dimension; ++d)
-      pressure[d] = initial ? flow_.gas().pressure(u) : wall.pressure[static_cast<std::size_t>(d)][wall.cell(i, j, k)];
+      main_pressure[d] =
+          initial ? flow_.gas().pressure(main) : wall.pressure[static_cast<std::size_t>(d)][wall.cell(i, j, k)];
+    bool const divided = record.parts.find(cut.cell) || (!initial && parts_.find(cut.cell));
     for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
       Piece const& piece = record.geometry.pieces[static_cast<std::size_t>(f)];
+      State u = main;
+      Vec3 pressure = main_pressure;
+      if (divided) {
+        std::size_t const unit = parts_.unit_of(f);
+        if (initial && unit > 0) {
+          u = start_state(cut.cell, unit);
+          pressure = flow_.gas().pressure(u) * Vec3{1, 1, 1};
+        } else if (!initial) {
+          u = main_before(cut.cell, unit) ? main : state_before(cut.cell, unit);
+          pressure = unit_pressure(cut.cell, unit);
+        }
+      }
       Vec3 const velocity = record.wall_velocity(piece.triangle, piece.bary_centroid);
       Real const chi = vacuum ? 1 : half_riemann(u, velocity, piece.area);
       piece_factor_[static_cast<std::size_t>(f)] = chi;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "coupling/cut_cells/cell_map.hpp"
+#include "coupling/geometry/cell_parts.hpp"
 #include "coupling/geometry/cut_geometry.hpp"
 #include "coupling/geometry/nearest.hpp"
 #include "fluid/grid/grid.hpp"
@@ -36,6 +37,9 @@ class WallRecord {
   /// Triangles of the record, sorted by id; `x_new` is the position at the time of the record.
   std::vector<SurfaceTriangle> triangles;
   Geometry geometry;
+  /// Parts of cells that thin walls divide; empty unless `divides`.
+  CellParts parts;
+  bool divides = false;
 
   /// Cuts the cells by `triangles`. Closed surfaces whose vertices are where they were in the last call, and which no
   /// moving one is next to, keep their pieces and cells: these come first in `geometry`, sorted among themselves, and
@@ -56,6 +60,11 @@ class WallRecord {
   Real volume(CellIndex c) const {
     Index const i = map_.at(c);
     return i == uncut_fluid ? cell_volume_ : i == uncut_solid ? 0 : cut(i).volume;
+  }
+  /// Fluid volume of the part of a cell that fields and sweeps know as the cell, m3.
+  Real main_volume(CellIndex c) const {
+    PartedCell const* const p = parts.find(c);
+    return p ? p->volume[0] : volume(c);
   }
   /// Fluid area of the low (0) or high (1) face in direction d, m2.
   Real aperture(CellIndex c, int d, int side) const {
@@ -93,6 +102,7 @@ class WallRecord {
   Extent extent() const {
     return {geometry.pieces.size(), geometry.corners.size(), geometry.cells.size(), geometry.solid.size()};
   }
+  void cut_all();
   void forget(Extent const& from);
   void truncate(Extent const& kept);
   void enter(Extent const& from);

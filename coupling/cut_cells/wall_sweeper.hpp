@@ -96,8 +96,12 @@ class WallSweeper : public fluid::BlockSweeper {
   /// Fluid cells that the closed face above `low` parts: the wall between them is thinner than two cells.
   bool two_sides(CellIndex low, int direction) const;
   void find_runs(fluid::Block const& block, WallBlock& wall, int direction);
+  /// Cells around the end of a run and an image that the run's gas reaches; false where no wall is thin and all do.
+  bool find_same_side(CellIndex const& home, CellIndex const& image);
   void find_solid(fluid::Block const& block, WallBlock& wall);
-  MirrorCell mirror(CellIndex c, int direction, int side, std::vector<GlobalId>& wanted, Index& hint) const;
+  /// `home`: the end of the run that asks; nullptr for the general mirror state of a solid cell.
+  MirrorCell mirror(CellIndex c, int direction, int side, CellIndex const* home, std::vector<GlobalId>& wanted,
+                    Index& hint);
   void refresh_mirrors();
   fluid::State image(MirrorCell const& mirror) const;
   void flux_between_solids(fluid::Block const& block, WallBlock& wall, int direction, Real sigma) const;
@@ -113,7 +117,7 @@ class WallSweeper : public fluid::BlockSweeper {
   std::vector<GlobalId> image_cells_;   ///< by slot
   WallSlopes profiles_, image_slopes_;  ///< of cut cells; of images
   bool profiled_ = false;               ///< the blocks hold states at centres, and images have slopes
-  CellSet near_;
+  CellSet near_, same_side_;
   std::vector<Real> scratch_u_, scratch_result_, scratch_flux_, scratch_pressure_;
   std::vector<std::uint8_t> scratch_order_;
   std::vector<std::uint32_t> scratch_marks_;
