@@ -30,7 +30,8 @@ bool WallSweeper::find_same_side(CellIndex const& home, CellIndex const& image) 
         CellIndex n = c;
         n[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
         if (!box.holds(n) || same_side_.holds(n) || record_->solid(n)) continue;
-        if (record_->aperture(c, d, side) > 0 && record_->parts.joined(side == 0 ? n : c, d)) same_side_.insert(n);
+        bool const open = record_->aperture(c, d, side) > covered_fraction * record_->lattice().face_area(d);
+        if (open && record_->parts.joined(side == 0 ? n : c, d)) same_side_.insert(n);
       }
   }
   return true;

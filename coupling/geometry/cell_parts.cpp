@@ -277,7 +277,7 @@ void divide(Lattice const& lattice, Geometry const& geometry, Real covered_volum
     if (s.dropped) ++out.undivided, out.undivided_cell = s.cell.cell;
   std::erase_if(seen, [](Seen const& s) { return s.dropped; });
   auto const add = [&](CellIndex const& low, std::size_t d, std::uint8_t a, std::uint8_t b, Real area) {
-    if (!(area > 0)) return;
+    if (!(area > 1e-14)) return;  // rounding of a closed face
     Real const metres = area * lattice.face_area(static_cast<int>(d));
     out.openings.push_back({key_of(low), static_cast<int>(d), a, b, metres});
   };
