@@ -8,7 +8,8 @@
 
 namespace brisance::coupling {
 
-Projection WallRecord::project(CellIndex c, int direction, int side, Index& hint) const {
+Projection WallRecord::project(CellIndex c, int direction, int side, Index& hint,
+                               std::function<bool(Index)> const& eligible) const {
   Vec3 const centre = grid_->centre(c);
   Real const h = smallest_spacing(*grid_);
   Real best = std::numeric_limits<Real>::max();
@@ -39,7 +40,7 @@ Projection WallRecord::project(CellIndex c, int direction, int side, Index& hint
     for (Index f = cell.first_piece; f < cell.last_piece; ++f) {
       Facet const& facet = facets_[static_cast<std::size_t>(f)];
       Real const bound = facet.closest2(centre);
-      if (bound > best || !faces(facet)) continue;
+      if (bound > best || !faces(facet) || (eligible && !eligible(f))) continue;
       Nearest const n = use_hint && f == hint ? hinted : closest(f, bound);
       // Of equals the one in the inner shell, there the first one.
       if (n.distance2 < best || (n.distance2 == best && distance < shell))

@@ -1,5 +1,6 @@
 // Where the runs of a block begin and end, and which states stand beyond their ends.
 #include <algorithm>
+#include <cmath>
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/wall_sweeper.hpp"
@@ -8,8 +9,33 @@ namespace brisance::coupling {
 
 using fluid::Block;
 
-bool WallSweeper::find_same_side(CellIndex const& home, CellIndex const& image) {
-  if (record_->parts.empty()) return false;
+bool WallSweeper::passes(CellIndex const& c, int direction, int side) const {
+  CellIndex low = c, next = c;
+  (side == 0 ? low : next)[static_cast<std::size_t>(direction)] += side == 0 ? -1 : 1;
+  return record_->aperture(c, direction, side) > covered_fraction * record_->lattice().face_area(direction) &&
+         !record_->solid(side == 0 ? low : next) && record_->parts.joined(low, direction);
+}
+
+bool WallSweeper::reaches(CellIndex const& home, CellIndex const& image) const {
+  int const dimension = flow_.grid().dimension;
+  if (!flow_.grid().inside(home) || record_->solid(image)) return false;
+  std::array<int, 3> axes{0, 1, 2};
+  do {
+    CellIndex c = home;
+    bool open = true;
+    for (int n = 0; n < 3 && open; ++n) {
+      int const d = axes[static_cast<std::size_t>(n)];
+      if (d >= dimension) continue;
+      auto const at = static_cast<std::size_t>(d);
+      for (int const side = image[at] > c[at] ? 1 : 0; open && c[at] != image[at]; c[at] += side == 0 ? -1 : 1)
+        open = passes(c, d, side);
+    }
+    if (open) return true;
+  } while (std::next_permutation(axes.begin(), axes.begin() + dimension));
+  return false;
+}
+
+void WallSweeper::find_same_side(CellIndex const& home, CellIndex const& image) {
   fluid::Grid const& grid = flow_.grid();
   CellBox box{home, {home[0] + 1, home[1] + 1, home[2] + 1}};
   for (std::size_t d = 0; d < 3; ++d) {
@@ -19,36 +45,58 @@ bool WallSweeper::find_same_side(CellIndex const& home, CellIndex const& image) 
   box = grown(grid, box, 3);
   for (std::size_t d = 0; d < 3; ++d)
     box.low[d] = std::max(box.low[d], 0), box.high[d] = std::min(box.high[d], grid.cells[d]);
-  if (!record_->parts.any_within(box)) return false;
   // The marks cover the box and nothing else: a flood stops at its sides.
   same_side_.start(box);
-  same_side_.insert(home);
+  if (box.holds(home)) same_side_.insert(home);
   for (std::size_t next = 0; next < same_side_.cells().size(); ++next) {
     CellIndex const c = same_side_.cells()[next];
     for (int d = 0; d < grid.dimension; ++d)
       for (int side = 0; side < 2; ++side) {
         CellIndex n = c;
         n[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
-        if (!box.holds(n) || same_side_.holds(n) || record_->solid(n)) continue;
-        bool const open = record_->aperture(c, d, side) > covered_fraction * record_->lattice().face_area(d);
-        if (open && record_->parts.joined(side == 0 ? n : c, d)) same_side_.insert(n);
+        if (box.holds(n) && !same_side_.holds(n) && passes(c, d, side)) same_side_.insert(n);
       }
   }
-  return true;
+}
+
+bool WallSweeper::wets(Index piece) const {
+  Piece const& p = record_->geometry.pieces[static_cast<std::size_t>(piece)];
+  if (same_side_.holds(p.cell)) {
+    PartedCell const* const parts = record_->parts.find(p.cell);
+    if (!parts || record_->parts.part_of(*parts, piece) == 0) return true;
+  }
+  // A piece of a small part or of a covered cell has its gas in front of it.
+  std::size_t d = 0;
+  for (std::size_t e = 1; e < 3; ++e)
+    if (std::abs(p.area[static_cast<int>(e)]) > std::abs(p.area[static_cast<int>(d)])) d = e;
+  CellIndex front = p.cell;
+  front[d] += p.area[static_cast<int>(d)] > 0 ? 1 : -1;
+  return same_side_.holds(front);
 }
 
 MirrorCell WallSweeper::mirror(CellIndex c, int direction, int side, CellIndex const* home,
                                std::vector<GlobalId>& wanted, Index& hint) {
   fluid::Grid const& grid = flow_.grid();
-  Projection const p = record_->project(c, direction, side, hint);
+  Projection p = record_->project(c, direction, side, hint);
   if (!p.found) return {};
+  CellIndex chosen = into_domain(grid, cell_of(grid, 2.0 * p.point - grid.centre(c)));
+  // A wall has another side: where the gas of the run does not come to the image straight ahead, it is asked how far
+  // it comes at all, and only what it wets mirrors it.
+  bool const flooded = home && !reaches(*home, chosen);
+  if (flooded) {
+    find_same_side(*home, chosen);
+    if (!same_side_.holds(chosen)) {
+      Index none = -1;
+      p = record_->project(c, direction, side, none, [this](Index piece) { return wets(piece); });
+      if (!p.found) return {};
+      chosen = into_domain(grid, cell_of(grid, 2.0 * p.point - grid.centre(c)));
+    }
+  }
   Vec3 const image = 2.0 * p.point - grid.centre(c);
   Real const h = smallest_spacing(grid);
-  CellIndex chosen = into_domain(grid, cell_of(grid, image));
-  bool const thin = home && find_same_side(*home, chosen);
   auto const acceptable = [&](CellIndex n) {
     if (!grid.inside(n) || record_->solid(n)) return false;
-    if (thin && !same_side_.holds(n)) return false;
+    if (flooded && !same_side_.holds(n)) return false;
     return direction < 0 || dot(grid.centre(n) - p.point, p.normal) > -0.5 * h;
   };
   if (!acceptable(chosen)) {

@@ -1,6 +1,7 @@
 // The solid boundary at one time level as the fluid of this rank sees it: triangles, cut cells, and what every cell is.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -79,7 +80,9 @@ class WallRecord {
   /// `side`
   /// (-1 or +1) of the cell along that direction, and have the centre behind them. Source: theory/coupling.md 1.9.
   /// `hint`: a piece that may be near, -1: none; becomes the piece found. It saves time and changes nothing.
-  Projection project(CellIndex c, int direction, int side, Index& hint) const;
+  /// `eligible`: the pieces that may be found; none given: all.
+  Projection project(CellIndex c, int direction, int side, Index& hint,
+                     std::function<bool(Index)> const& eligible = {}) const;
 
   fluid::Grid const& grid() const { return *grid_; }
   Lattice const& lattice() const { return lattice_; }

@@ -96,8 +96,14 @@ class WallSweeper : public fluid::BlockSweeper {
   /// Fluid cells that the closed face above `low` parts: the wall between them is thinner than two cells.
   bool two_sides(CellIndex low, int direction) const;
   void find_runs(fluid::Block const& block, WallBlock& wall, int direction);
-  /// Cells around the end of a run and an image that the run's gas reaches; false where no wall is thin and all do.
-  bool find_same_side(CellIndex const& home, CellIndex const& image);
+  /// Is the gas of a cell (of its largest part) one with that beyond its low (0) or high (1) face?
+  bool passes(CellIndex const& c, int direction, int side) const;
+  /// Does it come from one cell to another along the axes, one after the other?
+  bool reaches(CellIndex const& home, CellIndex const& image) const;
+  /// Fills same_side_: cells around the end of a run and an image that the gas of the run comes to.
+  void find_same_side(CellIndex const& home, CellIndex const& image);
+  /// Is that the gas in front of a piece?
+  bool wets(Index piece) const;
   void find_solid(fluid::Block const& block, WallBlock& wall);
   /// `home`: the end of the run that asks; nullptr for the general mirror state of a solid cell.
   MirrorCell mirror(CellIndex c, int direction, int side, CellIndex const* home, std::vector<GlobalId>& wanted,
