@@ -18,6 +18,16 @@ Projection WallRecord::project(CellIndex c, int direction, int side, Index& hint
   auto const faces = [&](Facet const& f) {  // the run, and has the centre behind it
     return direction < 0 || (f.faces(direction, side) && !(dot(centre - f.centroid, f.area) > 0));
   };
+  // A flat piece lies within a disc about its centroid; 1e-9 less, beyond all rounding of well-shaped ones.
+  auto const disc2 = [&](Facet const& f) {
+    Vec3 const apart = centre - f.centroid;
+    Vec3 const half{max(f.high.x - f.centroid.x, f.centroid.x - f.low.x),
+                    max(f.high.y - f.centroid.y, f.centroid.y - f.low.y),
+                    max(f.high.z - f.centroid.z, f.centroid.z - f.low.z)};
+    Real const height2 = square(dot(apart, f.area) / (20 * f.grazing)), beside2 = norm2(apart) - height2;
+    Real const radius2 = norm2(half);
+    return beside2 > radius2 ? (1 - 1e-9) * (height2 + square(std::sqrt(beside2) - std::sqrt(radius2))) : 0;
+  };
   auto const closest = [&](Index f, Real bound) {
     Nearest n = closest_point(lattice_, geometry, geometry.pieces[static_cast<std::size_t>(f)], centre);
     n.distance2 = max(n.distance2, bound);  // however degenerate: leaving out by bounds then changes nothing
@@ -31,7 +41,8 @@ Projection WallRecord::project(CellIndex c, int direction, int side, Index& hint
     CellIndex const& n = geometry.pieces[at].cell;
     use_hint =
         std::max({std::abs(n[0] - c[0]), std::abs(n[1] - c[1]), std::abs(n[2] - c[2])}) <= reach && faces(facets_[at]);
-    if (use_hint) hinted = closest(hint, facets_[at].closest2(centre)), best = hinted.distance2;
+    if (use_hint) hinted = closest(hint, max(facets_[at].closest2(centre), disc2(facets_[at])));
+    if (use_hint) best = hinted.distance2;
   }
 
   auto const look_into = [&](CutCell const& cell) {
@@ -39,8 +50,10 @@ Projection WallRecord::project(CellIndex c, int direction, int side, Index& hint
         std::max({std::abs(cell.cell[0] - c[0]), std::abs(cell.cell[1] - c[1]), std::abs(cell.cell[2] - c[2])});
     for (Index f = cell.first_piece; f < cell.last_piece; ++f) {
       Facet const& facet = facets_[static_cast<std::size_t>(f)];
-      Real const bound = facet.closest2(centre);
+      Real bound = facet.closest2(centre);
       if (bound > best || !faces(facet) || (eligible && !eligible(f))) continue;
+      bound = max(bound, disc2(facet));
+      if (bound > best) continue;
       Nearest const n = use_hint && f == hint ? hinted : closest(f, bound);
       // Of equals the one in the inner shell, there the first one.
       if (n.distance2 < best || (n.distance2 == best && distance < shell))
