@@ -171,7 +171,7 @@ void CutCells::pass_transfers(Real dt) {
     if (linear_ && u[0] > 0) {
       // Gas that slides along the wall: the fluxes pass what stands half a step upstream.
       Vec3 const slip = beside(t.area, Vec3{u[1], u[2], u[3]} / u[0] - t.wall_velocity);
-      u = sweeper_.profiles().value(t.state, u, t.place - 0.5 * dt * slip);
+      u = sweeper_.profiles().value(t.state, u, moments_of_point(t.place - 0.5 * dt * slip));
     }
     if (State* to = content(t.to)) add(*to, t.volume, u);
     if (State* from = content(t.from)) add(*from, -t.volume, u);
@@ -188,7 +188,7 @@ void CutCells::pass_fluxes(int d, Real dt) {
     auto const [wall, local] = wall_block_of(cell);
     for (int side = 0; side < 2; ++side) {
       Real const share = side == 0 ? dt : -dt;
-      if (linear_) add(amount, share, profile_flux(cell, d, side));
+      if (linear_) add(amount, share, profile_flux(cell, d, side, dt));
       Real const aperture = next_.aperture(cell, d, side);
       if (aperture == 0) continue;
       CellIndex face = local;
@@ -201,7 +201,7 @@ void CutCells::pass_fluxes(int d, Real dt) {
     State sum{};
     Real impulse = 0;
     for (SideFace const& face : faces) {
-      if (linear_) add(sum, share, profile_flux(face.cell, d, side));
+      if (linear_) add(sum, share, profile_flux(face.cell, d, side, dt));
       Real const area = next_.aperture(face.cell, d, side);
       if (area == 0) continue;
       State const& f = wall.flux[dir][face.at];

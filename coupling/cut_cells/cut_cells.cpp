@@ -263,8 +263,7 @@ void CutCells::mix() {
       for (int side = 0; side < 2; ++side)
         cell.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] = next_.aperture(cell.cell, d, side);
     cell.mine = owned(cell.cell);
-    if (linear_ || config_.small_cells == "redistribution")
-      cell.place = grid.centre(cell.cell) + fluid_centroid(next_, cell.cell);
+    if (linear_ || config_.small_cells == "redistribution") cell.region = fluid_moments(next_, cell.cell);
     while (next_content < contents_.size() && contents_[next_content].cell < cell.id) ++next_content;
     if (next_content < contents_.size() && contents_[next_content].cell == cell.id) {
       cell.amount = contents_[next_content].amount;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/cut_cells/moments.hpp"
 #include "coupling/cut_cells/wall_record.hpp"
 
 namespace brisance::coupling {
@@ -17,7 +18,7 @@ struct NearCell {
   fluid::State amount{};                          ///< integral over the cell
   bool rewritten = false;                         ///< the balance changed it: it is judged
   bool mine = false;
-  Vec3 place{};          ///< centroid of the fluid, m; needed where groups get profiles
+  Moments region{};      ///< of the fluid about the centre of the cell; needed where groups get profiles
   bool settled = false;  ///< state redistribution has done with it: it is not merged for its size
   // results
   bool grouped = false;
