@@ -42,7 +42,7 @@ struct CutCellsConfig {
       "structure in still air is exactly at rest, as one that was built in that air")
         .one_of({"absolute", "relative"});
     k("profile", &CutCellsConfig::profile, "",
-      "what varies linearly within cut cells, for what passes partly open faces: nothing or the density")
+      "what varies within cut cells, as a quadratic profile fitted to the cells around: nothing or the density")
         .one_of({"constant", "density"});
     k("wall", &CutCellsConfig::wall, "",
       "fluid.viscosity: friction and heat at the bodies; not given: they hold the gas and pass no heat");

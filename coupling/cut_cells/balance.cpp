@@ -197,7 +197,7 @@ void CutCells::pass_transfers(Real dt) {
     if (linear_ && u[0] > 0) {
       // Gas that slides along the wall: the fluxes pass what stands half a step upstream.
       Vec3 const slip = beside(t.area, Vec3{u[1], u[2], u[3]} / u[0] - t.wall_velocity);
-      u = sweeper_.profiles().value(t.state, u, t.place - 0.5 * dt * slip);
+      u = sweeper_.profiles().value(t.state, u, moments_of_point(t.place - 0.5 * dt * slip));
     }
     if (State* to = content(t.to, t.to_unit)) add(*to, t.volume, u);
     if (State* from = content(t.from, t.from_unit)) add(*from, -t.volume, u);
@@ -219,7 +219,7 @@ void CutCells::pass_fluxes(int d, Real dt) {
                  [&](Real area, State const& flux) { add(amount, share * area, flux); });
         continue;
       }
-      if (linear_) add(amount, share, profile_flux(cell, d, side));
+      if (linear_) add(amount, share, profile_flux(cell, d, side, dt));
       Real const aperture = next_.aperture(cell, d, side);
       if (aperture == 0) continue;
       CellIndex face = local;
@@ -240,7 +240,7 @@ void CutCells::pass_fluxes(int d, Real dt) {
           });
         continue;
       }
-      if (linear_) add(sum, share, profile_flux(face.cell, d, side));
+      if (linear_) add(sum, share, profile_flux(face.cell, d, side, dt));
       Real const area = next_.aperture(face.cell, d, side);
       if (area == 0) continue;
       State const& f = wall.flux[dir][face.at];

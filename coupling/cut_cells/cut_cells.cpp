@@ -305,7 +305,7 @@ void CutCells::mix() {
           for (int side = 0; side < 2; ++side)
             cell.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] = next_.aperture(c, d, side);
       }
-      if (linear_ || config_.small_cells == "redistribution") cell.place = grid.centre(c) + fluid_centroid(next_, c);
+      if (linear_ || config_.small_cells == "redistribution") cell.region = fluid_moments(next_, c);
       Content const here{id, {}, cell.unit};
       while (next_content < contents_.size() && contents_[next_content] < here) ++next_content;
       if (next_content < contents_.size() && !(here < contents_[next_content])) {

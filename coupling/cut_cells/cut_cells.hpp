@@ -190,7 +190,7 @@ class CutCells : public Effect {
   std::vector<int> ranks_within(CellIndex c, Index halo) const;
   /// What the profiles add to the flux through a face of `c`, times its area: of its open part, whose centroid is not
   /// that of the face, and of the part that the wall opened or closed in this step.
-  fluid::State profile_flux(CellIndex c, int d, int side) const;
+  fluid::State profile_flux(CellIndex c, int d, int side, Real dt) const;
   Verdict judge() const;
   void account(Ledger& ledger);
   void digest(parallel::Digest& digest) const;

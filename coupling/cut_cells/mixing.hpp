@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/cut_cells/moments.hpp"
 #include "coupling/cut_cells/wall_record.hpp"
 
 namespace brisance::coupling {
@@ -18,7 +19,7 @@ struct NearCell {
   fluid::State amount{};                          ///< integral over the cell
   bool rewritten = false;                         ///< the balance changed it: it is judged
   bool mine = false;
-  Vec3 place{};          ///< centroid of the fluid, m; needed where groups get profiles
+  Moments region{};      ///< of the fluid about the centre of the cell; needed where groups get profiles
   Index unit = 0;        ///< of a cell with parts; the list is sorted by (id, unit)
   bool linked = false;   ///< its neighbours are those of NearLink, not those of the grid
   Index share = -1;      ///< units of its cell with the same number share their gas; -1: none does

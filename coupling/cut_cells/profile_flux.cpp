@@ -1,5 +1,5 @@
 // Second order at partly open faces: the sweeps give the flux at the middle of a whole face at the middle of the step,
-// the balance takes it through the part that is open at the end of the step (coupling/README.md, "Linear profiles").
+// the balance takes it through the part that is open at the end of the step (coupling/README.md, "Density profiles").
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/cut_cells.hpp"
 #include "coupling/cut_cells/wall_centroids.hpp"
@@ -8,28 +8,7 @@ namespace brisance::coupling {
 
 using fluid::State;
 
-namespace {
-
-/// Area vector and mean velocity of the pieces of a cell, with the area as weight.
-struct WallMotion {
-  Vec3 area, velocity;
-  Real weight = 0;
-  void add(WallRecord const& record, CellIndex c) {
-    Index const i = record.cut_index(c);
-    if (i < 0) return;
-    for (Index f = record.cut(i).first_piece; f < record.cut(i).last_piece; ++f) {
-      Piece const& piece = record.geometry.pieces[static_cast<std::size_t>(f)];
-      Real const w = norm(piece.area);
-      area += piece.area;
-      velocity += w * record.wall_velocity(piece.triangle, piece.bary_centroid);
-      weight += w;
-    }
-  }
-};
-
-}  // namespace
-
-State CutCells::profile_flux(CellIndex c, int d, int side) const {
+State CutCells::profile_flux(CellIndex c, int d, int side, Real dt) const {
   fluid::Grid const& grid = flow_.grid();
   auto const dir = static_cast<std::size_t>(d);
   CellIndex low = c, high = c;
@@ -37,13 +16,13 @@ State CutCells::profile_flux(CellIndex c, int d, int side) const {
   // Through a side of the domain goes what the law of the side says, but for the gas that slides out along the wall.
   bool const inner = grid.inside(low) && grid.inside(high);
   if (!inner && (grid.periodic[dir] || flow_.reflecting(d, side))) return {};
-  Real const now = next_.aperture(c, d, side), before = moved_ ? record_.aperture(c, d, side) : now;
-  Real const whole = grid.face_area(d);
-  if (now == before && (now == 0 || now == whole)) return {};
+  Real const now = next_.aperture(c, d, side), whole = grid.face_area(d);
+  if (!(now > 0 && now < whole)) return {};
 
   WallSlopes const& profiles = sweeper_.profiles();
-  State u{};
-  Profile slope{};
+  Moments const face = face_moments(grid, d);
+  State u{};  // the mean of both sides, over the whole face
+  Profile profile{};
   Real known = 0;
   for (int end = 0; end < 2; ++end) {
     CellIndex const cell = end == 0 ? low : high;
@@ -51,42 +30,43 @@ State CutCells::profile_flux(CellIndex c, int d, int side) const {
     GlobalId const id = grid.cell_id(cell);
     State const* const mean = profiles.mean(id);
     if (!mean || !((*mean)[0] > 0)) continue;
-    Profile const* const profile = profiles.profile(id);
-    Vec3 face;
-    face[d] = (end == 0 ? 0.5 : -0.5) * grid.spacing[d];
-    State const at_face = profiles.value(id, *mean, face);
+    Vec3 centre;  // of the face
+    centre[d] = (end == 0 ? 0.5 : -0.5) * grid.spacing[d];
+    State const at_face = profiles.value(id, *mean, moved(face, centre));
     known += 1;
-    for (std::size_t q = 0; q < 5; ++q) {
-      u[q] += at_face[q];
-      for (std::size_t t = 0; profile && t < 3; ++t) slope[t][q] += (*profile)[t][q];
-    }
+    for (std::size_t q = 0; q < 5; ++q) u[q] += at_face[q];
+    if (Profile const* const p = profiles.profile(id)) profile = profile + moved(*p, centre);
   }
   if (known == 0) return {};
-  for (std::size_t q = 0; q < 5; ++q) {
-    u[q] /= known;
-    for (std::size_t t = 0; t < 3; ++t) slope[t][q] /= known;
-  }
+  profile = 1 / known * profile;
+  for (Real& x : u) x /= known;
+  Vec3 const velocity = Vec3{u[1], u[2], u[3]} / u[0];
 
   State flux{};
-  Vec3 const centroid = aperture_centroid(next_, c, d, side);
-  if (inner && now > 0 && now < whole) {
-    flux = flux_change(flow_.gas(), u, change_along(slope, centroid), d);
+  if (inner) {
+    // What comes through the face in a sweep stood half a step upstream, and farther along the axes swept before.
+    Vec3 upstream;
+    for (int t = 0; t < grid.dimension; ++t)
+      upstream[t] = (t == d ? -0.5 : sweeper_.swept_before(t, d) ? -1 : 0) * dt * velocity[t];
+    Moments const open = aperture_moments(next_, c, d, side);
+    flux = flux_change(flow_.gas(), u, change_between(moved(profile, upstream), open - face), d);
     for (Real& f : flux) f *= now;
   }
-  auto const cut = [&](CellIndex x) { return !grid.inside(x) || record_.cut_index(x) >= 0 || next_.cut_index(x) >= 0; };
-  if (now != before && cut(low) && cut(high)) {
-    // The opening at the end of the step stands for that of the whole step. What the gas carries with its motion
-    // relative to the wall, along it, goes through the mean opening: relative, so that common motion stays exact.
-    WallMotion wall;
-    for (CellIndex const& cell : {low, high}) wall.add(next_, cell);
-    if (!(wall.weight > 0))
-      for (CellIndex const& cell : {low, high}) wall.add(record_, cell);
-    if (!(wall.weight > 0)) return flux;
-    Vec3 const slip = beside(wall.area, Vec3{u[1], u[2], u[3]} / u[0] - wall.velocity / wall.weight);
-    Vec3 const moment = before * aperture_centroid(record_, c, d, side) - now * centroid;
-    State const change = change_along(slope, moment);
-    for (std::size_t q = 0; q < 5; ++q) flux[q] += 0.5 * slip[d] * ((before - now) * u[q] + change[q]);
-  }
+  if (moved_)
+    for_open_edges(next_, c, d, side, [&](OpenEdge const& edge) {
+      // Between the wall and the gas that slides along it opens a triangle: what was there at the start of the step
+      // passes the face with the gas, though neither the flux nor the swept volume know of it.
+      Vec3 const wall = next_.wall_velocity(edge.piece.triangle, edge.piece.bary_centroid);
+      Real const size = norm(edge.piece.area);
+      if (!(size > 0)) return;
+      Vec3 const normal = edge.piece.area / size;
+      Vec3 const slip = beside(normal, velocity - wall);
+      Real const rate =
+          0.5 * dt * dot(wall, normal) * (dot(normal, edge.open) * slip[d] - normal[d] * dot(slip, edge.open));
+      Vec3 const place = 0.5 * (edge.a + edge.b) - dt / 3 * (wall + velocity);
+      State const v = moved_within(flow_.gas(), u, change_between(profile, moments_of_point(place) - face));
+      for (std::size_t q = 0; q < 5; ++q) flux[q] += rate * v[q];
+    });
   return flux;
 }
 

@@ -16,8 +16,8 @@ constexpr std::size_t most_members = 4;
 struct Neighbourhood {
   std::vector<Index> members;  ///< the small cell first
   State mean{};
-  Vec3 place;
-  Profile slope{};
+  Moments region;  ///< about the centre of the small cell
+  Profile profile{};
 };
 
 class Redistributor {
@@ -42,7 +42,7 @@ class Redistributor {
       if (own) sum = state(j);
       for (Index const s : in_[j]) {
         Neighbourhood const& n = sets_[at(s)];
-        State const change = change_along(n.slope, cell.place - n.place);
+        State const change = change_between(n.profile, region(n, static_cast<Index>(j)) - n.region);
         for (std::size_t q = 0; q < 5; ++q) sum[q] += n.mean[q] + change[q];
       }
       for (std::size_t q = 0; q < 5; ++q) amount[j][q] = cell.volume * sum[q] / count(j);
@@ -66,6 +66,16 @@ class Redistributor {
   bool sound(Index j) const {
     NearCell const& c = cells_[at(j)];
     return c.volume > covered_fraction * full_ && !inadmissible(c.volume, c.amount) && !gas_.vacuum(state(at(j)));
+  }
+
+  /// From the centre of the small cell of n to that of cell j, m.
+  Vec3 offset(Neighbourhood const& n, Index j) const {
+    return grid_.centre(cells_[at(j)].cell) - grid_.centre(cells_[at(n.members.front())].cell);
+  }
+  Moments region(Neighbourhood const& n, Index j) const { return moved(cells_[at(j)].region, offset(n, j)); }
+  bool near(Neighbourhood const& n, Index j) const {
+    return std::any_of(n.members.begin(), n.members.end(),
+                       [&](Index m) { return adjacent(cells_[at(m)].cell, cells_[at(j)].cell); });
   }
 
   void find_neighbourhoods() {
@@ -96,17 +106,17 @@ class Redistributor {
       NearCell const& c = cells_[at(j)];
       Real const share = 1 / count(at(j));
       volume += share * c.volume;
-      n.place += share * c.volume * c.place;
+      n.region = n.region + share * c.volume * region(n, j);
       for (std::size_t q = 0; q < 5; ++q) n.mean[q] += share * c.amount[q];
     }
-    n.place = n.place / volume;
+    n.region = 1 / volume * n.region;
     for (Real& x : n.mean) x /= volume;
   }
 
   void fit(Neighbourhood& n) {
     std::vector<Index> around;
     for (Index const m : n.members)
-      for_neighbourhood(grid_, cells_[at(m)].cell, 1, [&](CellIndex c) {
+      for_neighbourhood(grid_, cells_[at(m)].cell, profile_reach, [&](CellIndex c) {
         Index const k = near_.find(c);
         if (k < 0 || cells_[at(k)].volume <= covered_fraction * full_ || !sees(record_, cells_[at(m)].cell, c)) return;
         if (std::find(n.members.begin(), n.members.end(), k) == n.members.end()) around.push_back(k);
@@ -116,17 +126,17 @@ class Redistributor {
     placed_.clear();
     for (Index const k : around) {
       if (Index const s = of_[at(k)]; s >= 0)
-        placed_.push_back({sets_[at(s)].mean, sets_[at(s)].place - n.place});
+        placed_.push_back({sets_[at(s)].mean, moved(sets_[at(s)].region, offset(n, k)), near(n, k)});
       else
-        placed_.push_back({state(at(k)), cells_[at(k)].place - n.place});
+        placed_.push_back({state(at(k)), region(n, k), near(n, k)});
     }
-    Profile slope{};
-    if (!fit_profile(kind_, gas_, grid_.spacing, grid_.dimension, n.mean, placed_, slope)) return;
+    Profile profile{};
+    if (!fit_profile(kind_, gas_, grid_.spacing, grid_.dimension, {n.mean, n.region}, placed_, profile)) return;
     for (Index const m : n.members) {
-      State const change = change_along(slope, cells_[at(m)].place - n.place);
+      State const change = change_between(profile, region(n, m) - n.region);
       if (change != State{} && moved_within(gas_, n.mean, change) == n.mean) return;
     }
-    n.slope = slope;
+    n.profile = profile;
   }
 
   fluid::Gas const& gas_;

@@ -31,7 +31,7 @@ bool sees(WallRecord const& record, CellIndex c, CellIndex to) {
     int const side = to[dir] > c[dir] ? 1 : 0;
     if (!(record.aperture(c, d, side) > seen * grid.face_area(d))) continue;
     CellIndex next = c;
-    next[dir] = to[dir];
+    next[dir] += side == 0 ? -1 : 1;
     if (!record.solid(next) && sees(record, next, to)) return true;
   }
   return false;
@@ -65,14 +65,15 @@ void WallSlopes::plan(parallel::Comm& comm, fluid::Flow& flow, WallRecord const&
   ids_ = std::move(cells);
   cells_.assign(ids_.size(), {});
   neighbours_.clear();
-  std::vector<Vec3> centroid(record.geometry.cells.size());
+  std::vector<Moments> moments(record.geometry.cells.size());
   std::vector<bool> known(record.geometry.cells.size(), false);
-  auto const place = [&](CellIndex c) {
+  Moments const whole = cell_moments(grid);
+  auto const region = [&](CellIndex c) -> Moments const& {
     Index const i = record.cut_index(c);
-    if (i < 0) return Vec3{};
+    if (i < 0) return whole;
     auto const at = static_cast<std::size_t>(i);
-    if (!known[at]) centroid[at] = fluid_centroid(record, c), known[at] = true;
-    return centroid[at];
+    if (!known[at]) moments[at] = fluid_moments(record, c), known[at] = true;
+    return moments[at];
   };
   std::vector<GlobalId> of, wanted;  // of each neighbour
   std::vector<GlobalId> sources(ids_.size());
@@ -86,19 +87,18 @@ void WallSlopes::plan(parallel::Comm& comm, fluid::Flow& flow, WallRecord const&
       Real nearest = -1;
       for_neighbourhood(grid, c, 1, [&](CellIndex m) {
         if (!grid.inside(m) || record.solid(m)) return;
-        Real const r2 = norm2(grid.centre(m) + place(m) - grid.centre(c));
+        Real const r2 = norm2(grid.centre(m) + region(m).mean - grid.centre(c));
         if (nearest < 0 || r2 < nearest) nearest = r2, source = m;
       });
       if (nearest < 0) continue;
     }
     sources[n] = grid.cell_id(source);
-    Vec3 const centroid = grid.centre(source) + place(source);
     p.slot = 0;
-    p.centroid = centroid - grid.centre(c);
+    p.region = moved(region(source), grid.centre(source) - grid.centre(c));
     wanted.push_back(sources[n]);
-    for_neighbourhood(grid, source, 1, [&](CellIndex m) {
+    for_neighbourhood(grid, source, profile_reach, [&](CellIndex m) {
       if (m == source || !grid.inside(m) || record.solid(m) || !sees(record, source, m)) return;
-      neighbours_.push_back({0, grid.centre(m) + place(m) - centroid});
+      neighbours_.push_back({0, moved(region(m), grid.centre(m) - grid.centre(c)), adjacent(source, m)});
       of.push_back(grid.cell_id(m));
     });
     p.last = static_cast<Index>(neighbours_.size());
@@ -124,65 +124,124 @@ void WallSlopes::refresh(parallel::Comm& comm, ReadCell const& read, ProfileKind
   for (Cell& p : cells_) fit(p, kind);
 }
 
-bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& spacing, int dimension, State const& u,
+namespace {
+
+/// Weighted least squares for the changes of five values along up to nine terms.
+class LeastSquares {
+ public:
+  explicit LeastSquares(std::size_t terms) : terms_(terms) {}
+
+  void add(std::array<Real, 9> const& term, State const& change, Real weight) {
+    for (std::size_t i = 0; i < terms_; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) matrix_[i][j] += weight * term[i] * term[j];
+      for (std::size_t q = 0; q < 5; ++q) right_[i][q] += weight * term[i] * change[q];
+    }
+  }
+
+  /// Cholesky. A term that the others leave less than a share of `tight` of gets no value: false, when there is one.
+  bool solve(Real tight, std::array<State, 9>& value) const {
+    std::array<std::array<Real, 9>, 9> low{};
+    bool all = true;
+    for (std::size_t i = 0; i < terms_; ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        Real sum = matrix_[i][j];
+        for (std::size_t k = 0; k < j; ++k) sum -= low[i][k] * low[j][k];
+        if (i == j)
+          low[i][i] = sum > tight * matrix_[i][i] && sum > 1e-3 * tight ? std::sqrt(sum) : 0,
+          all = all && low[i][i] > 0;
+        else
+          low[i][j] = low[j][j] > 0 ? sum / low[j][j] : 0;
+      }
+    value = {};
+    for (std::size_t q = 0; q < 5; ++q) {
+      std::array<Real, 9> s{};
+      for (std::size_t i = 0; i < terms_; ++i) {
+        if (low[i][i] == 0) continue;
+        s[i] = right_[i][q];
+        for (std::size_t k = 0; k < i; ++k) s[i] -= low[i][k] * s[k];
+        s[i] /= low[i][i];
+      }
+      for (std::size_t i = terms_; i-- > 0;) {
+        if (low[i][i] == 0) continue;
+        for (std::size_t k = i + 1; k < terms_; ++k) s[i] -= low[k][i] * s[k];
+        s[i] /= low[i][i];
+      }
+      for (std::size_t i = 0; i < terms_; ++i) value[i][q] = s[i];
+    }
+    return all;
+  }
+
+ private:
+  std::size_t terms_;
+  std::array<std::array<Real, 9>, 9> matrix_{};
+  std::array<State, 9> right_{};
+};
+
+/// Axes of the terms of a profile: the coordinates, then the products that the grid has.
+struct Terms {
+  std::size_t axes, count = 0;
+  std::array<std::size_t, 6> product{};
+  explicit Terms(int dimension) : axes(static_cast<std::size_t>(dimension)) {
+    count = axes;
+    for (std::size_t k = 0; k < 6; ++k)
+      if (product_axes[k][0] < dimension && product_axes[k][1] < dimension) product[count++ - axes] = k;
+  }
+};
+
+}  // namespace
+
+bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& h, int dimension, PlacedState const& centre,
                  std::span<PlacedState const> neighbours, Profile& profile) {
+  State const& u = centre.state;
   if (gas.vacuum(u)) return false;
   Real const pressure = gas.pressure(u) + gas.curve.stiffness;
   Real jump = 0;
   State most{};
-  std::array<std::array<Real, 3>, 3> matrix{};
-  std::array<State, 3> right{};
+  Terms const terms(dimension);
+  LeastSquares full(terms.count), plain(terms.axes);
+  std::size_t told = 0;
   for (PlacedState const& n : neighbours) {
     State const& v = n.state;
-    if (gas.vacuum(v)) return false;
-    jump = max(jump, max(relative_jump(u[0], v[0]), relative_jump(pressure, gas.pressure(v) + gas.curve.stiffness)));
-    std::array<Real, 3> const x{n.offset.x / spacing.x, n.offset.y / spacing.y, n.offset.z / spacing.z};
-    Real const r2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
-    if (!(r2 > 1e-6)) continue;
-    Real const w = 1 / r2;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) matrix[i][j] += w * x[i] * x[j];
-      for (std::size_t q = 0; q < 5; ++q) right[i][q] += w * x[i] * (v[q] - u[q]);
+    if (gas.vacuum(v)) {
+      if (n.near) return false;
+      continue;
     }
-    for (std::size_t q = 0; q < 5; ++q) most[q] = max(most[q], std::abs(v[q] - u[q]));
+    Real const difference =
+        max(relative_jump(u[0], v[0]), relative_jump(pressure, gas.pressure(v) + gas.curve.stiffness));
+    if (n.near) jump = max(jump, difference);
+    Moments const offset = n.region - centre.region;
+    std::array<Real, 9> x{};
+    Real r2 = 0;
+    for (std::size_t d = 0; d < terms.axes; ++d) {
+      x[d] = offset.mean[static_cast<int>(d)] / h[static_cast<int>(d)];
+      r2 += x[d] * x[d];
+    }
+    for (std::size_t t = terms.axes; t < terms.count; ++t) {
+      std::size_t const k = terms.product[t - terms.axes];
+      x[t] = offset.product[k] / (h[product_axes[k][0]] * h[product_axes[k][1]]);
+    }
+    if (!(r2 > 1e-6)) continue;
+    State change;
+    for (std::size_t q = 0; q < 5; ++q) change[q] = v[q] - u[q];
+    full.add(x, change, 1 / (r2 * r2));
+    ++told;
+    if (!n.near) continue;
+    plain.add(x, change, 1 / r2);
+    for (std::size_t q = 0; q < 5; ++q) most[q] = max(most[q], std::abs(change[q]));
   }
   if (!(jump < 2 * smooth_jump)) return false;
-  // Cholesky; an axis along which the neighbours tell nothing has no slope.
-  auto const axes = static_cast<std::size_t>(dimension);
-  std::array<std::array<Real, 3>, 3> low{};
-  for (std::size_t i = 0; i < axes; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      Real sum = matrix[i][j];
-      for (std::size_t k = 0; k < j; ++k) sum -= low[i][k] * low[j][k];
-      if (i == j)
-        low[i][i] = sum > 0.02 * matrix[i][i] && sum > 1e-3 ? std::sqrt(sum) : 0;
-      else
-        low[i][j] = low[j][j] > 0 ? sum / low[j][j] : 0;
-    }
-  for (std::size_t q = 0; q < 5; ++q) {
-    std::array<Real, 3> s{};
-    for (std::size_t i = 0; i < axes; ++i) {
-      if (low[i][i] == 0) continue;
-      s[i] = right[i][q];
-      for (std::size_t k = 0; k < i; ++k) s[i] -= low[i][k] * s[k];
-      s[i] /= low[i][i];
-    }
-    for (std::size_t i = axes; i-- > 0;) {
-      if (low[i][i] == 0) continue;
-      for (std::size_t k = i + 1; k < axes; ++k) s[i] -= low[k][i] * s[k];
-      s[i] /= low[i][i];
-    }
-    for (std::size_t i = 0; i < axes; ++i) profile[i][q] = s[i];
-  }
+  std::array<State, 9> value{};
+  bool const curved = told > terms.count && full.solve(1e-3, value);
+  if (!curved) plain.solve(0.02, value);  // an axis along which the neighbours tell nothing has no slope
   if (kind == ProfileKind::density) {
     // At the velocity and pressure of the cell.
     Real const step = 1e-3 * u[0], p = gas.pressure(u);
     Real energy = 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / (u[0] * u[0]);
     if (!gas.curve.zero())
       energy += (gas.energy_at_rest(u[0] + step, p) - gas.energy_at_rest(u[0] - step, p)) / (2 * step);
-    for (std::size_t i = 0; i < axes; ++i) {
-      for (std::size_t q = 1; q < 4; ++q) profile[i][q] = profile[i][0] * u[q] / u[0];
-      profile[i][4] = profile[i][0] * energy;
+    for (State& change : value) {
+      for (std::size_t q = 1; q < 4; ++q) change[q] = change[0] * u[q] / u[0];
+      change[4] = change[0] * energy;
     }
     most[4] = most[0] * std::abs(energy);
   }
@@ -190,30 +249,64 @@ bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& spacing, i
   Real factor = min(1, 2 - jump / smooth_jump);
   for (std::size_t const q : {std::size_t{0}, std::size_t{4}}) {
     Real reach = 0;
-    for (std::size_t i = 0; i < axes; ++i) reach += 0.5 * std::abs(profile[i][q]);
+    for (std::size_t i = 0; i < terms.axes; ++i) reach += 0.5 * std::abs(value[i][q]);
     if (reach > most[q]) factor = min(factor, most[q] / reach);
   }
-  for (std::size_t i = 0; i < axes; ++i)
-    for (Real& g : profile[i]) g *= factor / spacing[static_cast<int>(i)];
+  profile = {};
+  for (std::size_t i = 0; i < terms.axes; ++i)
+    for (std::size_t q = 0; q < 5; ++q) profile.slope[i][q] = factor / h[static_cast<int>(i)] * value[i][q];
+  for (std::size_t t = terms.axes; curved && t < terms.count; ++t) {
+    std::size_t const k = terms.product[t - terms.axes];
+    Real const scale = factor / (h[product_axes[k][0]] * h[product_axes[k][1]]);
+    for (std::size_t q = 0; q < 5; ++q) profile.curve[k][q] = scale * value[t][q];
+  }
   return true;
 }
 
-State change_along(Profile const& profile, Vec3 const& offset) {
+State change_between(Profile const& profile, Moments const& difference) {
   State change{};
-  for (std::size_t d = 0; d < 3; ++d)
-    for (std::size_t q = 0; q < 5; ++q) change[q] += offset[static_cast<int>(d)] * profile[d][q];
+  for (std::size_t q = 0; q < 5; ++q) {
+    for (std::size_t d = 0; d < 3; ++d) change[q] += difference.mean[static_cast<int>(d)] * profile.slope[d][q];
+    for (std::size_t k = 0; k < 6; ++k) change[q] += difference.product[k] * profile.curve[k][q];
+  }
   return change;
 }
 
-void WallSlopes::fit(Cell& cell, ProfileKind kind) const {
-  std::array<PlacedState, 26> around;
-  auto const n = static_cast<std::size_t>(cell.last - cell.first);
-  for (std::size_t i = 0; i < n; ++i) {
-    Neighbour const& neighbour = neighbours_[static_cast<std::size_t>(cell.first) + i];
-    around[i] = {states_[neighbour.slot], neighbour.offset};
+Profile operator+(Profile a, Profile const& b) {
+  for (std::size_t q = 0; q < 5; ++q) {
+    for (std::size_t d = 0; d < 3; ++d) a.slope[d][q] += b.slope[d][q];
+    for (std::size_t k = 0; k < 6; ++k) a.curve[k][q] += b.curve[k][q];
   }
-  cell.flat = cell.slot < 0 ||
-              !fit_profile(kind, gas_, spacing_, dimension_, states_[cell.slot], {around.data(), n}, cell.profile);
+  return a;
+}
+
+Profile operator*(Real f, Profile p) {
+  for (State& s : p.slope)
+    for (Real& x : s) x *= f;
+  for (State& s : p.curve)
+    for (Real& x : s) x *= f;
+  return p;
+}
+
+Profile moved(Profile profile, Vec3 const& by) {
+  for (std::size_t k = 0; k < 6; ++k) {
+    auto const [a, b] = product_axes[k];
+    for (std::size_t q = 0; q < 5; ++q) {
+      profile.slope[static_cast<std::size_t>(a)][q] += by[b] * profile.curve[k][q];
+      profile.slope[static_cast<std::size_t>(b)][q] += by[a] * profile.curve[k][q];
+    }
+  }
+  return profile;
+}
+
+void WallSlopes::fit(Cell& cell, ProfileKind kind) {
+  around_.clear();
+  for (Index i = cell.first; i < cell.last; ++i) {
+    Neighbour const& neighbour = neighbours_[static_cast<std::size_t>(i)];
+    around_.push_back({states_[neighbour.slot], neighbour.region, neighbour.near});
+  }
+  cell.flat = cell.slot < 0 || !fit_profile(kind, gas_, spacing_, dimension_, {states_[cell.slot], cell.region, true},
+                                            around_, cell.profile);
 }
 
 WallSlopes::Cell const* WallSlopes::find(GlobalId cell) const {
@@ -221,10 +314,10 @@ WallSlopes::Cell const* WallSlopes::find(GlobalId cell) const {
   return at != ids_.end() && *at == cell ? &cells_[static_cast<std::size_t>(at - ids_.begin())] : nullptr;
 }
 
-State WallSlopes::value(GlobalId cell, State const& u, Vec3 const& x) const {
+State WallSlopes::value(GlobalId cell, State const& u, Moments const& region) const {
   Cell const* const p = find(cell);
   if (!p || p->flat) return u;
-  return moved_within(gas_, u, change_along(p->profile, x - p->centroid));
+  return moved_within(gas_, u, change_between(p->profile, region - p->region));
 }
 
 Profile const* WallSlopes::profile(GlobalId cell) const {

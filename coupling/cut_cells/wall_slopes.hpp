@@ -1,9 +1,10 @@
-// Linear profiles in cells near walls: least-squares gradients of the neighbours that a cell sees through its open
-// faces, each value at the centroid of the fluid it is the mean of.
+// Quadratic profiles in cells near walls: least squares among the neighbours that a cell sees through open faces, each
+// value the mean over the fluid of its cell.
 #pragma once
 #include <span>
 #include <vector>
 
+#include "coupling/cut_cells/moments.hpp"
 #include "coupling/cut_cells/state_gather.hpp"
 #include "coupling/cut_cells/wall_record.hpp"
 
@@ -11,21 +12,38 @@ namespace brisance::coupling {
 
 /// What varies within a cell: nothing but the density, at the velocity and pressure of the cell, or all.
 enum class ProfileKind { density, all };
-/// Gradient of the conserved variables along each axis, per m.
-using Profile = std::array<fluid::State, 3>;
-fluid::State change_along(Profile const& profile, Vec3 const& offset);
+/// Change of the conserved variables from the mean of a region: linear in the moments about a common point.
+struct Profile {
+  std::array<fluid::State, 3> slope{};  ///< along each axis at that point, per m
+  std::array<fluid::State, 6> curve{};  ///< half of the second derivatives xx, yy, zz, and xy, yz, zx; per m2
+};
+/// Difference of the means over two regions, given the difference of their moments.
+fluid::State change_between(Profile const& profile, Moments const& difference);
+Profile operator+(Profile a, Profile const& b);
+Profile operator*(Real f, Profile p);
+/// The same profile about a point farther by `by`.
+Profile moved(Profile profile, Vec3 const& by);
 
-/// The mean of a cell and where its centroid lies from that of another, m.
+/// The mean of a region with its moments, m about the point that the profile is to be taken about.
 struct PlacedState {
   fluid::State state;
-  Vec3 offset;
+  Moments region;
+  bool near = true;  ///< among the 3^d cells around
 };
-/// The least-squares profile of a mean `u` among its neighbours; false, where it is to be flat: beside vacuum and
-/// jumps. Cost: 26 neighbours, 0.3 us.
-bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& spacing, int dimension, fluid::State const& u,
+/// The least-squares profile of a mean among its neighbours: quadratic where they are enough, else linear among the
+/// near ones; false, where it is to be flat: beside vacuum and jumps.
+bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& spacing, int dimension, PlacedState const& centre,
                  std::span<PlacedState const> neighbours, Profile& profile);
 
-/// Is there a way from c to a cell of its 3^d neighbourhood, one step along each axis that differs, through open faces?
+/// Cells around in each direction among which profiles are fitted.
+constexpr Index profile_reach = 2;
+inline bool adjacent(CellIndex a, CellIndex b) {
+  for (std::size_t d = 0; d < 3; ++d)
+    if (a[d] > b[d] + 1 || b[d] > a[d] + 1) return false;
+  return true;
+}
+
+/// Is there a way from c to a cell near it through open faces, no longer than without walls?
 bool sees(WallRecord const& record, CellIndex c, CellIndex to);
 
 class WallSlopes {
@@ -38,10 +56,10 @@ class WallSlopes {
   void clear();
   bool planned() const { return planned_; }
 
-  /// The profile of `cell` at `x`, m from its centre, where its mean is `u`; `u` itself where there is none, or where
-  /// it would leave the admissible states.
-  fluid::State value(GlobalId cell, fluid::State const& u, Vec3 const& x) const;
-  /// Null: flat.
+  /// The mean of the profile of `cell` over a region, about its centre, where the mean over its fluid is `u`; `u`
+  /// itself where there is none, or where it would leave the admissible states.
+  fluid::State value(GlobalId cell, fluid::State const& u, Moments const& region) const;
+  /// About the centre of the cell; null: flat.
   Profile const* profile(GlobalId cell) const;
   /// The mean that the profile of `cell` has at the centroid, at the last refresh; null: unknown.
   fluid::State const* mean(GlobalId cell) const;
@@ -50,17 +68,18 @@ class WallSlopes {
  private:
   struct Neighbour {
     Index slot;
-    Vec3 offset;  ///< of its centroid from that of the cell, m
+    Moments region;  ///< of its fluid about the centre of the cell
+    bool near;
   };
   struct Cell {
     Index slot = -1;  ///< in the gather; -1: solid
     Index first = 0, last = 0;
-    Vec3 centroid;  ///< m from the centre of the cell
+    Moments region;  ///< about the centre of the cell
     bool flat = true;
     Profile profile{};
   };
   Cell const* find(GlobalId cell) const;
-  void fit(Cell& cell, ProfileKind kind) const;
+  void fit(Cell& cell, ProfileKind kind);
 
   bool planned_ = false;
   int dimension_ = 3;
@@ -70,6 +89,7 @@ class WallSlopes {
   std::vector<Cell> cells_;
   std::vector<Neighbour> neighbours_;
   StateGather states_;
+  std::vector<PlacedState> around_;  ///< work space
 };
 
 /// u + change, or u where that would be no admissible state or near none.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "coupling/cut_cells/cell_geometry.hpp"
+#include "coupling/cut_cells/wall_centroids.hpp"
 #include "fluid/flux/low_order.hpp"
 #include "fluid/flux/sweep.hpp"
 
@@ -34,6 +35,12 @@ std::uint8_t order_within(int scene_order, Index room) {
 constexpr std::array<std::array<std::size_t, 5>, 3> sweep_component{
     {{0, 1, 2, 3, 4}, {0, 2, 1, 3, 4}, {0, 3, 2, 1, 4}}};
 
+/// Order of the faces near cut cells that hold profiles. Higher ones damp too little: what the profiles make of noise
+/// along the wall then grows (coupling/README.md).
+constexpr std::uint8_t calm_order = 3;
+/// Cells along the sweep from a face within which a cut cell makes it one of these.
+constexpr Index calm_reach = 3;
+
 /// Health bits of a full cell after a sweep, with the bands of theory/fluid.md 4.4.
 std::uint64_t judge(State const& u, fluid::Gas const& gas) {
   auto const bit = [](fluid::Health h) { return static_cast<std::uint64_t>(h); };
@@ -61,6 +68,8 @@ std::uint64_t courant(Real density, Real momentum, Real pressure, Real sigma, fl
 
 void WallSweeper::begin_step() {
   profiled_ = false;
+  sweeps_ = 0;
+  done_ = under_way_ = {};
   for (auto& [id, wall] : blocks_) {
     Block const& block = *flow_.find(id);
     std::size_t const cells = static_cast<std::size_t>(wall.size[0]) * static_cast<std::size_t>(wall.size[1]) *
@@ -98,6 +107,7 @@ void WallSweeper::make_profiles(WallRecord const& next, bool same) {
   profiles_.refresh(comm_, read, profile_kind);
   image_slopes_.refresh(comm_, read, profile_kind);
   profiled_ = true;
+  Moments const whole = cell_moments(grid);
   for (auto& [id, wall] : blocks_) {
     Block& block = *flow_.find(id);
     CellBox const own = box_of(block);
@@ -105,7 +115,7 @@ void WallSweeper::make_profiles(WallRecord const& next, bool same) {
     for (CutCell const& cut : record_->geometry.cells) {
       if (!own.holds(cut.cell) || record_->solid(cut.cell)) continue;
       Index const i = cut.cell[0] - first[0], j = cut.cell[1] - first[1], k = cut.cell[2] - first[2];
-      block.store(i, j, k, profiles_.value(grid.cell_id(cut.cell), wall.before[wall.cell(i, j, k)], {}));
+      block.store(i, j, k, profiles_.value(grid.cell_id(cut.cell), wall.before[wall.cell(i, j, k)], whole));
     }
   }
 }
@@ -114,14 +124,46 @@ State WallSweeper::image(MirrorCell const& mirror) const {
   State const& u = images_[mirror.slot];
   if (!profiled_) return u;
   Profile const* const profile = image_slopes_.profile(image_cells_[static_cast<std::size_t>(mirror.slot)]);
-  return profile ? moved_within(flow_.gas(), u, change_along(*profile, mirror.offset)) : u;
+  if (!profile) return u;
+  // The sweeps have carried the profile with them.
+  Vec3 upstream;
+  for (int d = 0; d < 3; ++d) upstream[d] = -done_[d] * u[static_cast<std::size_t>(d) + 1] / u[0];
+  return moved_within(flow_.gas(), u, change_between(moved(*profile, upstream), moments_of_point(mirror.offset)));
 }
 
-void WallSweeper::prepare(int, Real) { refresh_mirrors(); }
+void WallSweeper::prepare(int direction, Real dt) {
+  order_[static_cast<std::size_t>(direction)] = sweeps_++;
+  done_ += under_way_;
+  under_way_ = {};
+  under_way_[direction] = dt;
+  refresh_mirrors();
+}
 
 bool WallSweeper::is_fluid(Block const& block, Index i, Index j, Index k) const {
   CellIndex const first = block.first();
   return !record_->solid({first[0] + i, first[1] + j, first[2] + k});
+}
+
+void WallSweeper::calm(Block const& block, WallBlock::Run const& run, int direction, Index longest, std::size_t lane) {
+  auto const d = static_cast<std::size_t>(direction);
+  auto const width = static_cast<std::size_t>(fluid::lanes());
+  CellIndex c = block.first();
+  c[d == 0 ? 1 : 0] += run.transverse[0], c[d == 2 ? 1 : 2] += run.transverse[1];
+  Index const first = c[d], start = std::max(run.begin, 0);
+  auto const is_cut = [&](Index i) {
+    if (i < run.begin || i >= run.end) return false;
+    c[d] = first + i;
+    return record_->cut_index(c) >= 0;
+  };
+  Index latest = -2 * calm_reach;  // cut cell met last
+  Index asked = -calm_reach;
+  for (Index f = 0; f <= longest; ++f) {
+    for (; asked < f + calm_reach; ++asked)
+      if (is_cut(start + asked)) latest = asked;
+    if (latest < f - calm_reach) continue;
+    std::uint8_t& order = scratch_order_[static_cast<std::size_t>(f) * width + lane];
+    order = std::min(order, calm_order);
+  }
 }
 
 fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
@@ -211,6 +253,7 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
         bool const beyond_run = at > std::min(run.end, n);  // of a lane shorter than the longest: order 0, not counted
         scratch_order_[static_cast<std::size_t>(f) * width + lane] = beyond_run ? 0 : order_within(order, room);
       }
+      if (profiled_) calm(block, run, direction, longest, lane);
     }
     fluid::LineBundle const bundle{longest,
                                    u0,

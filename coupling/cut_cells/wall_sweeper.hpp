@@ -78,6 +78,10 @@ class WallSweeper : public fluid::BlockSweeper {
   /// mirror states are taken at the image itself: the sweeps see a smooth flow that goes on behind the wall.
   void make_profiles(WallRecord const& next, bool same);
   WallSlopes const& profiles() const { return profiles_; }
+  /// Is direction a swept before b in this step?
+  bool swept_before(int a, int b) const {
+    return order_[static_cast<std::size_t>(a)] < order_[static_cast<std::size_t>(b)];
+  }
 
   bool handles(Index block) const override { return blocks_.contains(block); }
   void prepare(int direction, Real dt) override;
@@ -110,6 +114,8 @@ class WallSweeper : public fluid::BlockSweeper {
                     Index& hint);
   void refresh_mirrors();
   fluid::State image(MirrorCell const& mirror) const;
+  /// Lowers the order of the faces of a run near cut cells, in its lane of scratch_order_.
+  void calm(fluid::Block const& block, WallBlock::Run const& run, int direction, Index longest, std::size_t lane);
   void flux_between_solids(fluid::Block const& block, WallBlock& wall, int direction, Real sigma) const;
   /// Nothing but pressure goes through a reflecting side, to round-off.
   void close_reflecting_sides(fluid::Block& block, WallBlock& wall, int direction, Real sigma,
@@ -123,6 +129,9 @@ class WallSweeper : public fluid::BlockSweeper {
   std::vector<GlobalId> image_cells_;   ///< by slot
   WallSlopes profiles_, image_slopes_;  ///< of cut cells; of images
   bool profiled_ = false;               ///< the blocks hold states at centres, and images have slopes
+  std::array<int, 3> order_{};          ///< place of each direction in the sweeps of this step
+  int sweeps_ = 0;                      ///< begun in this step
+  Vec3 done_, under_way_;               ///< time for which each direction has been swept in this step, s
   CellSet near_, same_side_;
   std::vector<Real> scratch_u_, scratch_result_, scratch_flux_, scratch_pressure_;
   std::vector<std::uint8_t> scratch_order_;

@@ -298,10 +298,10 @@ class Pencil {
             return fnma(frame.w, y[0], y[3]);
           });
     };
-    if constexpr (Runs && Order > 5) {
+    if constexpr (Runs && Order >= 5) {
       V const order = spread(face_order);
       run([order](int q, V sum)
-              __attribute__((always_inline)) { return q == 2 ? sum : select(order >= V(2.0 * q + 1), sum, V(0.0)); });
+              __attribute__((always_inline)) { return select(order >= V(2.0 * q + 1), sum, V(0.0)); });
     } else {
       run(AllOrders{});
     }

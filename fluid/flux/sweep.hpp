@@ -79,7 +79,7 @@ struct LineBundle {
   Real* result;    ///< [cell 0..n-1][5][lane]: provisional new states
   Real* flux;      ///< [face 0..n][5][lane]: final (blended) fluxes
   Real* pressure;  ///< [cell 0..n-1][lane]: pressure before the sweep (0 in vacuum)
-  /// [face 0..n][lane]: order of each face, at most `order` (below 5 only if it is `order`); 0: the face is outside the
+  /// [face 0..n][lane]: order of each face, at most `order` (1 only if it is `order`); 0: the face is outside the
   /// run of its lane, its flux is nonsense, and it and its cells enter neither counts nor extrema.
   std::uint8_t const* face_order;
   /// [cell -1..n]: lanes (one bit each) where a shock runs across the sweep; at cell 0. Null: nowhere.

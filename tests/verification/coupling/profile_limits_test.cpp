@@ -1,0 +1,78 @@
+// What profiles in cut cells must not break: common motion (V2) and positive states while a crack fills (V12), in space
+// and with both treatments of small cells (theory/coupling.md sections 1.5, 3.3, 7).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/evidence.hpp"
+#include "tests/support/nd_scene.hpp"
+
+namespace brisance {
+namespace {
+
+using namespace testing;
+
+constexpr std::array small_cells{"merging", "redistribution"};
+
+std::string start(int cells, std::string const& state) {
+  std::string const n = std::to_string(cells);
+  return "end_time = \"1 s\"\n[fluid]\nlow = [\"0 m\", \"0 m\", \"0 m\"]\nhigh = [\"1 m\", \"1 m\", \"1 m\"]\ncells = "
+         "[" +
+         n + ", " + n + ", " + n + "]\nambient = " + state + "\neuler = { order = 5, cfl = 0.5 }\n";
+}
+
+std::string coupling(char const* small) {
+  return "[coupling]\ncut_cells = { profile = \"density\", small_cells = \"" + std::string(small) + "\" }\n";
+}
+
+TEST(Profiles, KeepUniformMotionInSpace) {
+  Vec3 const velocity{0.41, 0.23, -0.31};
+  std::string const state = gas_state(1.4, 1, velocity, 3);
+  for (char const* const small : small_cells) {
+    CoupledCase c(
+        start(20, state) + inflow_everywhere(state, 3) + "[solid]\n" + rigid_material(3) +
+        "[[solid.body]]\nmaterial = \"rigid\"\nshape = \"plate\"\ncentre = [\"0.45 m\", \"0.43 m\", \"0.53 m\"]\n"
+        "axis = [0.3, 0.5, 0.8]\nlength = \"0.31 m\"\nwidth = \"0.22 m\"\nthickness = \"0.21 m\"\nvelocity = " +
+        vector(velocity, "m/s") + "\n" + coupling(small));
+    fluid::Gas const& gas = c.world->flow->gas();
+    Real largest = 0;
+    c.run(evidence::full() ? 100 : 12, [&] {
+      c.for_fluid([&](fluid::CellIndex, fluid::State const& u, Real) {
+        Vec3 const du = Vec3{u[1], u[2], u[3]} / u[0] - velocity;
+        largest = max(largest, max(std::abs(u[0] - 1.4), max(norm(du), std::abs(gas.pressure(u) - 1))));
+      });
+    });
+    EXPECT_TRUE(evidence::at_most("V2", "uniform translation",
+                                  "3D turned brick; density profiles; " + std::string(small),
+                                  "largest deviation of the gas", largest, 1e-11));
+  }
+}
+
+TEST(Profiles, StayPositiveInACrack) {
+  std::string const state = gas_state(1.4, 1, {}, 3);
+  for (char const* const small : small_cells) {
+    std::string bodies;
+    for (int const side : {-1, 1}) {
+      Real const low = side < 0 ? 0.31 : 0.512, high = side < 0 ? 0.512 : 0.71;
+      bodies += "[[solid.body]]\nmaterial = \"rigid\"\nlow = " + vector({low, 0.3, 0.33}, "m") +
+                "\nhigh = " + vector({high, 0.64, 0.69}, "m") +
+                "\nvelocity = " + vector({3.0 * side, 0.2, 0.1}, "m/s") + "\n";
+    }
+    CoupledCase c(start(20, state) + "[solid]\n" + rigid_material(50) + bodies + coupling(small));
+    bool positive = true;
+    c.run(20, [&] {
+      c.for_fluid([&](fluid::CellIndex, fluid::State const& u, Real) {
+        positive =
+            positive && u[0] >= 0 && 2 * u[0] * u[4] - u[1] * u[1] - u[2] * u[2] - u[3] * u[3] >= -1e-13 * u[0] * u[4];
+      });
+    });
+    std::string const variant = "3D; +-3 c; density profiles; " + std::string(small);
+    EXPECT_TRUE(evidence::at_most("V12", "crack opening", variant, "cells below zero", positive ? 0 : 1, 0));
+    EXPECT_TRUE(evidence::at_most("V12", "crack opening", variant, "mass defect", c.conservation().mass, 1e-12));
+    EXPECT_TRUE(evidence::at_most("V12", "crack opening", variant, "rejected pairs",
+                                  static_cast<double>(c.simulation().statistics().retries), 0));
+  }
+}
+
+}  // namespace
+}  // namespace brisance
