@@ -89,7 +89,7 @@ void check_ring(Real cells_thick, Ring kind) {
                               (kind == Ring::held        ? "held"
                                : kind == Ring::breathing ? "breathing"
                                                          : "drifting, spinning");
-  EXPECT_TRUE(at_most(name, variant, "share of the gas that is lost", lost, 1e-3));
+  EXPECT_TRUE(at_most(name, variant, "share of the gas that is lost", lost, 1e-12));
   check_conservation(c, name, variant);
   if (kind == Ring::held) {
     EXPECT_TRUE(at_most(name, variant, "speed of the outer air, m/s", speed, 1e-6));
@@ -170,7 +170,7 @@ TEST(ThinWalls, ShellInSpace) {
     Real const now = mass_inside(c, place(), 0.276);
     lost = max(lost, std::abs(now / before - 1));
   });
-  EXPECT_TRUE(at_most("shell in space", "0.34 cells thick", "share of the gas that is lost", lost, 1e-3));
+  EXPECT_TRUE(at_most("shell in space", "0.34 cells thick", "share of the gas that is lost", lost, 1e-12));
   check_conservation(c, "shell in space", "0.34 cells thick");
 }
 
