@@ -47,13 +47,12 @@ WallMeans wall_means(CoupledCase& c, Vec3 const& corner, Real angle, Real foot_x
   return means;
 }
 
-void expect_means(std::string const& variant, WallMeans const& means, Real pressure, Real density,
-                  Real density_tolerance = 0.01) {
+void expect_means(std::string const& variant, WallMeans const& means, Real pressure, Real density) {
   EXPECT_GT(means.cells, 10) << variant;
   EXPECT_TRUE(evidence::near("V6", "regular reflection on a wedge", variant, "p3 / p1 on the wall", means.pressure,
                              pressure, 0.01 * pressure));
   EXPECT_TRUE(evidence::near("V6", "regular reflection on a wedge", variant, "rho3 / rho1 on the wall", means.density,
-                             density, density_tolerance * density));
+                             density, 0.01 * density));
 }
 
 TEST(ShockOnAWedge, ReflectsAsTheTwoShockTheorySays) {
@@ -106,7 +105,7 @@ TEST(ShockOnAWedge, OtherPairsAndAMovingFrame) {
     variant << "Mach " << k.mach << "; " << k.degrees << " degrees; frame at (" << k.frame.x << " " << k.frame.y << ")";
     expect_means(variant.str(),
                  wall_means(c, corner, radians(k.degrees), 0.15 + end_time * (k.mach + k.frame.x), k.from), k.pressure,
-                 k.density, k.mach < 10 ? 0.01 : 0.025);  // Mach 10: 2 % high beside the wall, 1.7 % on 240
+                 k.density);  // the density at Mach 10 misses by 2 % (coupling/README.md)
   }
 }
 
