@@ -10,7 +10,7 @@
 namespace brisance::coupling {
 namespace {
 
-constexpr Real agreement = 1e-8;  ///< of a cell: what (G2) may miss; measured 1e-13
+constexpr Real agreement = 1e-12;  ///< of a cell: what (G2) may miss; measured 1e-13
 
 std::uint64_t key_of(CellIndex const& c) { return detail::cell_key(c, 2, 1, 0); }
 
@@ -106,8 +106,8 @@ void PartStep::settle(Work& w) {
       defect += std::abs(change);
     }
     defect /= cell_volume;
-    bool const clearer = defect < best_defect - 1e-11;
-    if (clearer || (defect < best_defect + 1e-11 && likeness > best_likeness)) {
+    bool const clearer = defect < best_defect - agreement;
+    if (clearer || (defect < best_defect + agreement && likeness > best_likeness)) {
       best_defect = min(best_defect, defect), best_likeness = likeness, best = to;
     }
   };
