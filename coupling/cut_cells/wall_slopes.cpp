@@ -231,7 +231,8 @@ bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& h, int dim
   }
   if (!(jump < 2 * smooth_jump)) return false;
   std::array<State, 9> value{};
-  bool const curved = told > terms.count && full.solve(1e-3, value);
+  // Curved profiles of all variables feed waves along the wall.
+  bool const curved = kind == ProfileKind::density && told > terms.count && full.solve(1e-3, value);
   if (!curved) plain.solve(0.02, value);  // an axis along which the neighbours tell nothing has no slope
   if (kind == ProfileKind::density) {
     // At the velocity and pressure of the cell.

@@ -178,7 +178,8 @@ TEST(DensityWave, InSpace) {
   converges({3, 18.4, true, 0.43, 5, density}, 16, 8.2e-3, 1.7);
 }
 
-/// Full suite: a profile is nowhere worse than none, and by how much it is better.
+/// Full suite: a profile is nowhere worse than none, and by how much it is better. Not on 16 cells in space, where the
+/// lump is as narrow as the stencil (README).
 TEST(DensityWave, TableOfProfilesAndSmallCells) {
   if (!evidence::full()) GTEST_SKIP() << "full suite only";
   for (int const dimension : {2, 3})
@@ -187,12 +188,13 @@ TEST(DensityWave, TableOfProfilesAndSmallCells) {
         if (degrees == 0 && speed == 0) continue;  // along grid lines: nothing to cure
         for (int const order : {1, 5, 11}) {
           if (dimension == 3 && order != 5) continue;
-          for (int const cells : dimension == 2 ? std::vector{32, 64, 128} : std::vector{16, 24, 32}) {
+          for (int const cells : dimension == 2 ? std::vector{32, 64, 128} : std::vector{24, 32}) {
             Wave w{dimension, degrees, speed != 0, speed, order, constant};
-            Real const none = check(w, cells, 0.1);
+            Real const loose = order == 1 ? 0.15 : 0.1;  // order 1 smears the lump away from walls as well
+            Real const none = check(w, cells, loose);
             for (char const* const keys : {density, redistributed, constant_redistributed}) {
               w.keys = keys;
-              check(w, cells, keys == constant_redistributed ? 0.1 : none);
+              check(w, cells, keys == constant_redistributed ? loose : none);
             }
           }
         }
