@@ -1,15 +1,21 @@
 // Convex polygons cut by grid planes, one plane at a time; both sides go on.
 #pragma once
+#include <memory>
+
 #include "coupling/geometry/cut_geometry.hpp"
 
 namespace brisance::coupling {
 
-/// Corners in order. A triangle cut by two planes per direction has at most 9; a segment is a polygon of 2.
+/// Corners in order. A triangle cut by two planes per direction has at most 9; a segment is a polygon of 2. Places that
+/// hold no corner stay unwritten: clearing them costs as much as a cut.
 template <class Point>
 struct Polygon {
-  std::array<Point, 9> corner;
+  Polygon() {}
+  union {
+    std::array<Point, 9> corner;
+  };
   std::size_t n = 0;
-  void add(Point const& p) { corner[n++] = p; }
+  void add(Point const& p) { std::construct_at(&corner[n++], p); }
 };
 
 template <int D>

@@ -79,7 +79,8 @@ void add_part(Polygon<Vec3> const& p, Index i, Index j, Index k, Columns& sums) 
 
 void add_triangle(Vec3 const& a, Vec3 const& b, Vec3 const& c, Columns& sums) {
   if (projection(a, b, c) == 0) return;
-  Polygon<Vec3> const whole{{a, b, c}, 3};
+  Polygon<Vec3> whole;
+  for (Vec3 const& p : {a, b, c}) whole.add(p);
   slice<0>(whole, cells_along<0>(whole), [&](Polygon<Vec3> const& in_x, Index i) {
     Span const y = cells_along<1>(in_x);
     if (y.last < y.first) return;  // in a plane across y: no projection
