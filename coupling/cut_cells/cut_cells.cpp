@@ -24,7 +24,7 @@ CutCells::CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flo
       solid_(solid),
       comm_(comm),
       surface_(solid, std::move(surface), flow, comm, wall_margin),
-      sweeper_(flow, comm) {
+      sweeper_(flow, next_, comm) {
   std::vector<CellBox> region;
   for (Block const& block : flow.blocks()) region.push_back(grown(flow.grid(), box_of(block), wall_margin));
   for (WallRecord* r : {&record_, &next_}) {

@@ -1,6 +1,7 @@
 #include "coupling/cut_cells/mixing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "coupling/cut_cells/cell_geometry.hpp"
@@ -28,7 +29,9 @@ class Merger {
   }
 
   Merging run() {
+    bind_inside_out();
     for (Index i = 0; i < count(); ++i) {
+      if (speaker_[at(i)] != i) continue;
       NearCell const& c = cell(i);
       for (Index j = i - 1; c.share >= 0 && j >= 0 && cell(j).id == c.id; --j)
         if (cell(j).share == c.share) unite(j, i);
@@ -66,6 +69,34 @@ class Merger {
   void unite(Index a, Index b) {
     a = root(a), b = root(b);
     if (a != b) parent_[at(std::max(a, b))] = std::min(a, b);  // the root is the lowest id: no order of visit enters
+  }
+
+  /// Covered cells between bodies that overlap, with a face that is inside out between them, are one: what goes through
+  /// it is as large as it is arbitrary, and may not move gas from one side of the walls to the other. The fullest
+  /// speaks for all when they ask for a target.
+  void bind_inside_out() {
+    speaker_.resize(cells_.size());
+    std::iota(speaker_.begin(), speaker_.end(), Index{0});
+    auto const covered = [&](NearCell const& c) {
+      return c.unit == 0 && !c.linked && c.volume <= covered_fraction * full_;
+    };
+    std::vector<Index> bound;
+    for (Index i = 0; i < count(); ++i)
+      for (int d = 0; d < grid_.dimension && covered(cell(i)); ++d) {
+        if (cell(i).aperture[static_cast<std::size_t>(d)][1] >= -inside_out * grid_.face_area(d)) continue;
+        CellIndex high = cell(i).cell;
+        high[static_cast<std::size_t>(d)] += 1;
+        Index const j = near_.find(high);
+        if (j < 0 || !covered(cell(j))) continue;
+        unite(i, j);
+        bound.insert(bound.end(), {i, j});
+      }
+    for (Index const i : bound) {  // first the speaker of each root
+      Index& speaker = speaker_[at(root(i))];
+      Index const now = speaker;
+      if (std::abs(cell(i).volume) > std::abs(cell(now).volume)) speaker = i;
+    }
+    for (Index const i : bound) speaker_[at(i)] = speaker_[at(root(i))];
   }
 
   void sum_groups() {
@@ -168,6 +199,7 @@ class Merger {
   Sight sight_;
   std::vector<NearCell>& cells_;
   std::vector<Index> parent_;
+  std::vector<Index> speaker_;      ///< of the cells that are bound to it; of others: the cell itself
   std::vector<Index> next_, last_;  ///< members of a group in the order of ids: after i; the last one, by root
   std::vector<Real> volume_;
   std::vector<State> amount_;

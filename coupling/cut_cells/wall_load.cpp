@@ -84,13 +84,18 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
     CellIndex const first = block.first();
     Index const i = cut.cell[0] - first[0], j = cut.cell[1] - first[1], k = cut.cell[2] - first[2];
     WallBlock const& wall = sweeper_.blocks().at(block.id());
-    State const main = initial ? block.load(i, j, k) : wall.before[wall.cell(i, j, k)];
-    // The factor is 1 in or next to a vacuum cell.
+    State main = initial ? block.load(i, j, k) : wall.before[wall.cell(i, j, k)];
+    // In a cell that was solid stands the gas as the wall mirrors it: what meets the wall would seem to leave it.
+    if (record_.solid(cut.cell))
+      if (MirrorCell const* const mirror = wall.mirror_at({i, j, k}); mirror && mirror->slot >= 0)
+        main = reflect(main, *mirror);
+    // The factor is 1 in or next to a vacuum cell, and where bodies overlap.
     bool vacuum = false;
     if (!vacuum_.empty())
       for_neighbourhood(grid, cut.cell, 1, [&](CellIndex n) {
         vacuum = vacuum || (grid.inside(n) && std::binary_search(vacuum_.begin(), vacuum_.end(), grid.cell_id(n)));
       });
+    bool const no_gas = vacuum || (!initial && sweeper_.bound(cut.cell));
     Vec3 main_pressure;
     for (int d = 0; d < grid.dimension; ++d)
       main_pressure[d] =
@@ -111,7 +116,7 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
         }
       }
       Vec3 const velocity = record.wall_velocity(piece.triangle, piece.bary_centroid);
-      Real const chi = vacuum ? 1 : half_riemann(u, velocity, piece.area);
+      Real const chi = no_gas ? 1 : half_riemann(u, velocity, piece.area);
       piece_factor_[static_cast<std::size_t>(f)] = chi;
       PieceFriction const friction = viscous_ && !initial ? (*viscous_)[static_cast<std::size_t>(f)] : PieceFriction{};
       Vec3 const felt = force_on_solid(chi, pressure, piece.area), force = felt + friction.force;

@@ -22,6 +22,10 @@ constexpr Index wall_reach = wall_margin + 4;
 /// Fluid fraction below which a cell counts as solid (theory/coupling.md 1.9).
 constexpr Real covered_fraction = 1e-9;
 
+/// Part of a face that must be inside out, as between bodies that overlap, to make the covered cells beside it one:
+/// more than what contact makes of the faces across it.
+constexpr Real inside_out = 0.1;
+
 /// Point of the wall nearest to a cell centre: the base of a mirror state.
 struct Projection {
   bool found = false;

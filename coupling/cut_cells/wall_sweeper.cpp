@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/wall_centroids.hpp"
@@ -21,6 +22,14 @@ State reflect(State u, MirrorCell const& mirror) {
   u[4] += 0.5 * (norm2(reflected) - norm2(momentum)) / u[0];
   u[1] = reflected.x, u[2] = reflected.y, u[3] = reflected.z;
   return u;
+}
+
+MirrorCell const* WallBlock::mirror_at(CellIndex const& local) const {
+  auto const place = [](CellIndex const& c) { return std::tuple(c[2], c[1], c[0]); };
+  auto const at = std::lower_bound(solid.begin(), solid.end(), local, [&](auto const& entry, CellIndex const& c) {
+    return place(entry.first) < place(c);
+  });
+  return at != solid.end() && at->first == local ? &at->second : nullptr;
 }
 
 namespace {
@@ -62,6 +71,21 @@ std::uint64_t courant(Real density, Real momentum, Real pressure, Real sigma, fl
   if (gas.curve.exponential()) impedance2 += density * density * gas.reference_slope(density);
   bool const bad = room < 0 || impedance2 > room * room;
   return bad ? static_cast<std::uint64_t>(fluid::Health::courant) : 0;
+}
+
+/// What goes through a face that is inside out, as between bodies that overlap: no gas but what moves with the walls.
+/// The flux between states of either side would run from the lower to the higher pressure there.
+State closed_flux(State const& a, State const& b, Vec3 const& wall_velocity, int direction, fluid::Gas const& gas) {
+  auto const internal = [](State const& u) {
+    return u[0] > 0 ? u[4] - 0.5 * (u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) / u[0] : u[4];
+  };
+  Real const density = 0.5 * (a[0] + b[0]), pressure = 0.5 * (gas.pressure(a) + gas.pressure(b));
+  Real const energy = 0.5 * (internal(a) + internal(b)) + 0.5 * density * norm2(wall_velocity);
+  Real const speed = wall_velocity[direction];
+  State flux{speed * density, 0, 0, 0, speed * (energy + pressure)};
+  for (int d = 0; d < 3; ++d) flux[static_cast<std::size_t>(d) + 1] = speed * density * wall_velocity[d];
+  flux[static_cast<std::size_t>(direction) + 1] += pressure;
+  return flux;
 }
 
 }  // namespace
@@ -194,8 +218,7 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
     through_parted.push_back(fluid::low_order_flux(
         block.load(low[0], low[1], low[2]), block.load(high[0], high[1], high[2]), direction, sigma, flow_.gas()));
   }
-  for (auto const& [c, m] : wall.solid)
-    wall.pressure[d][wall.cell(c[0], c[1], c[2])] = flow_.gas().pressure(block.load(c[0], c[1], c[2]));
+  for (auto const& [c, m] : wall.solid) wall.pressure[d][wall.cell(c[0], c[1], c[2])] = pressure_of_solid(block, c);
 
   auto const& runs = wall.runs[d];
   auto const& ends = wall.ends[d];
@@ -302,21 +325,73 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
   return total;
 }
 
+bool WallSweeper::turned(CellIndex const& c, int direction, int side, Real part) const {
+  Real const limit = -part * record_->lattice().face_area(direction);
+  return record_->aperture(c, direction, side) < limit || next_.aperture(c, direction, side) < limit;
+}
+
+bool WallSweeper::bound(CellIndex const& c) const {
+  if (!record_->solid(c)) return false;
+  for (int d = 0; d < flow_.grid().dimension; ++d)
+    for (int side = 0; side < 2; ++side) {
+      CellIndex other = c;
+      other[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
+      if (turned(c, d, side, inside_out) && record_->solid(other)) return true;
+    }
+  return false;
+}
+
+/// Of its mirror state. Cells that a face binds have one: what is left of the forces in them goes to the gas beside
+/// them.
+Real WallSweeper::pressure_of_solid(Block const& block, CellIndex const& local) const {
+  auto const at = [&](CellIndex const& c) { return flow_.gas().pressure(block.load(c[0], c[1], c[2])); };
+  Real sum = at(local);
+  CellIndex c = block.first();
+  for (std::size_t d = 0; d < 3; ++d) c[d] += local[d];
+  if (record_->cut_index(c) < 0 && next_.cut_index(c) < 0) return sum;
+  int count = 1;
+  for (int d = 0; d < flow_.grid().dimension; ++d)
+    for (int side = 0; side < 2; ++side) {
+      if (!turned(c, d, side, inside_out)) continue;
+      CellIndex other = c, there = local;
+      other[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
+      there[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
+      if (record_->solid(other)) sum += at(there), ++count;
+    }
+  return sum / count;
+}
+
+Vec3 WallSweeper::wall_velocity_beside(CellIndex const& low, CellIndex const& high) const {
+  Vec3 sum;
+  Real weight = 0;
+  for (CellIndex const& c : {low, high}) {
+    Index const at = record_->cut_index(c);
+    if (at < 0) continue;
+    for (Index f = record_->cut(at).first_piece; f < record_->cut(at).last_piece; ++f) {
+      Piece const& piece = record_->geometry.pieces[static_cast<std::size_t>(f)];
+      Real const size = norm(piece.area);
+      sum += size * record_->wall_velocity(piece.triangle, piece.bary_centroid);
+      weight += size;
+    }
+  }
+  return weight > 0 ? sum / weight : Vec3{};
+}
+
 void WallSweeper::flux_between_solids(Block const& block, WallBlock& wall, int direction, Real sigma) const {
   auto const d = static_cast<std::size_t>(direction);
+  CellIndex const first = block.first();
+  auto const global = [&](CellIndex const& c) { return CellIndex{c[0] + first[0], c[1] + first[1], c[2] + first[2]}; };
   for (auto const& [cell, m] : wall.solid)
     for (int side = 0; side < 2; ++side) {
-      CellIndex neighbour = cell, face = cell;
-      neighbour[d] += side == 0 ? -1 : 1;
+      CellIndex low = cell, high = cell, face = cell;
+      (side == 0 ? low : high)[d] += side == 0 ? -1 : 1;
       face[d] += side;
-      CellIndex global = block.first();
-      for (std::size_t e = 0; e < 3; ++e) global[e] += neighbour[e];
-      if (!record_->solid(global)) continue;  // the end of a run: its flux is the run's
-      State const here = block.load(cell[0], cell[1], cell[2]);
-      State const there = block.load(neighbour[0], neighbour[1], neighbour[2]);
+      if (!record_->solid(global(side == 0 ? low : high))) continue;  // the end of a run: its flux is the run's
+      State const below = block.load(low[0], low[1], low[2]), above = block.load(high[0], high[1], high[2]);
       wall.flux[d][wall.face(direction, face[0], face[1], face[2])] =
-          side == 0 ? fluid::low_order_flux(there, here, direction, sigma, flow_.gas())
-                    : fluid::low_order_flux(here, there, direction, sigma, flow_.gas());
+          turned(global(cell), direction, side, 0)
+              ? closed_flux(below, above, wall_velocity_beside(global(low), global(high)), direction, flow_.gas())
+              : fluid::low_order_flux(below, above, direction, sigma, flow_.gas());
     }
 }
 

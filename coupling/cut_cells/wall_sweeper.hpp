@@ -54,13 +54,17 @@ struct WallBlock {
   std::array<std::vector<Run>, 3> runs;  ///< longest first
   std::array<std::vector<RunEnd>, 3> ends;
   std::array<std::vector<CellIndex>, 3> parted;         ///< local cells above closed faces between two fluid cells
-  std::vector<std::pair<CellIndex, MirrorCell>> solid;  ///< local cells with their general mirror states
+  std::vector<std::pair<CellIndex, MirrorCell>> solid;  ///< local cells with their general mirror states, sorted by id
   std::vector<GlobalId> images;                         ///< of all mirror cells of the block
+  /// How the general mirror state of a local solid cell was made; null far from walls.
+  MirrorCell const* mirror_at(CellIndex const& local) const;
 };
 
 class WallSweeper : public fluid::BlockSweeper {
  public:
-  WallSweeper(fluid::Flow& flow, parallel::Comm& comm) : flow_(flow), comm_(comm) {}
+  /// `next`: during the sweeps the geometry after the step.
+  WallSweeper(fluid::Flow& flow, WallRecord const& next, parallel::Comm& comm)
+      : flow_(flow), comm_(comm), next_(next) {}
 
   /// Collective. New runs, mirrors and images for the geometry of `record`; then the general mirror states are set.
   void rebuild(WallRecord const& record);
@@ -71,6 +75,9 @@ class WallSweeper : public fluid::BlockSweeper {
   void keep(WallRecord const& record);
   /// Collective. Puts a mirrored state into every solid cell near the walls; `mirrored`: image -> state.
   void set_mirrors(std::function<fluid::State(fluid::State const&, MirrorCell const&)> const& mirrored);
+  /// Is the cell one with another covered one behind a face that is inside out, now or after the step? Pieces in them
+  /// feel one pressure.
+  bool bound(CellIndex const& c) const;
   /// Keeps U^n of the wall blocks.
   void begin_step();
   /// Collective, after begin_step. Linear profiles at t^n in the cells cut now or after the step (`next`; `same`: it is
@@ -116,6 +123,11 @@ class WallSweeper : public fluid::BlockSweeper {
   fluid::State image(MirrorCell const& mirror) const;
   /// Lowers the order of the faces of a run near cut cells, in its lane of scratch_order_.
   void calm(fluid::Block const& block, WallBlock::Run const& run, int direction, Index longest, std::size_t lane);
+  /// Is the face, now or after the step, inside out by more than `part` of a face?
+  bool turned(CellIndex const& c, int direction, int side, Real part) const;
+  Real pressure_of_solid(fluid::Block const& block, CellIndex const& local) const;
+  /// Mean over the pieces in two cells, m/s.
+  Vec3 wall_velocity_beside(CellIndex const& low, CellIndex const& high) const;
   void flux_between_solids(fluid::Block const& block, WallBlock& wall, int direction, Real sigma) const;
   /// Nothing but pressure goes through a reflecting side, to round-off.
   void close_reflecting_sides(fluid::Block& block, WallBlock& wall, int direction, Real sigma,
@@ -124,6 +136,7 @@ class WallSweeper : public fluid::BlockSweeper {
   fluid::Flow& flow_;
   parallel::Comm& comm_;
   WallRecord const* record_ = nullptr;
+  WallRecord const& next_;
   std::map<Index, WallBlock> blocks_;
   StateGather images_;
   std::vector<GlobalId> image_cells_;   ///< by slot
