@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/cut_cells/cell_map.hpp"
+#include "coupling/geometry/cell_map.hpp"
 #include "fluid/grid/block.hpp"
 
 namespace brisance::coupling {

@@ -97,7 +97,7 @@ fluid::ViscousWalls& CutCells::add_viscosity(fluid::Transport const& transport) 
 
 void CutCells::join(Plan& plan) {
   plan.effect("coupling.cut_cells", [this] {
-    return record_.bytes() + next_.bytes() + sweeper_.bytes() + at_start_.bytes() +
+    return record_.bytes() + next_.bytes() + sweeper_.bytes() + at_start_.bytes() + parts_.bytes() +
            (stage_account_ ? stage_account_->bytes() : 0);
   });
   if (StageLedger* const stages = plan.stages()) {

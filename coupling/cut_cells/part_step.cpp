@@ -36,12 +36,14 @@ struct PartStep::Work {
   std::array<std::array<Real, most_parts>, most_parts> alike{};  ///< [before][after]
 };
 
+void PartStep::clear() {
+  cells_.clear();
+  places_.list({});
+}
+
 CellUnits const* PartStep::find(CellIndex const& c) const {
-  if (cells_.empty()) return nullptr;
-  auto const key = key_of(c);
-  auto const at = std::lower_bound(cells_.begin(), cells_.end(), key,
-                                   [](CellUnits const& u, std::uint64_t k) { return key_of(u.cell) < k; });
-  return at != cells_.end() && at->cell == c ? &*at : nullptr;
+  Index const place = places_.of(c);
+  return place >= 0 ? &cells_[static_cast<std::size_t>(place)] : nullptr;
 }
 
 std::size_t PartStep::unit_of(Index piece) const {
@@ -171,7 +173,7 @@ void PartStep::join(Work& w) {
 void PartStep::match(WallRecord const& before, WallRecord const& after, std::span<CellBox const> near, bool moved) {
   before_ = &before;
   after_ = &after;
-  cells_.clear();
+  clear();
   mixed_ = 0;
   std::vector<CellIndex> divided;
   for (WallRecord const* r : {&before, &after})
@@ -205,6 +207,7 @@ void PartStep::match(WallRecord const& before, WallRecord const& after, std::spa
       }
   }
   cells_.resize(divided.size());
+  places_.list(divided);
   for (std::size_t i = 0; i < work.size(); ++i) cells_[i] = work[i].units;  // label() asks which cells are divided
 
   if (moved) {

@@ -23,7 +23,7 @@ class PartStep {
   /// Matches the parts of cells within `near` so that every unit keeps the volume law (G2) with what the wall swept;
   /// where several assignments do, the one whose parts are bounded by the same triangles.
   void match(WallRecord const& before, WallRecord const& after, std::span<CellBox const> near, bool moved);
-  void clear() { cells_.clear(); }
+  void clear();
   bool empty() const { return cells_.empty(); }
   std::vector<CellUnits> const& cells() const { return cells_; }
   /// Null for a cell whose fluid is connected, before and after.
@@ -36,6 +36,7 @@ class PartStep {
   std::size_t unit_of(Index piece) const;
   /// The unit of cell `c` that a piece of `after` sweeps there.
   std::size_t swept_unit(CellIndex const& c, Index piece) const;
+  std::size_t bytes() const { return cells_.capacity() * sizeof(CellUnits) + places_.bytes(); }
   Index mixed() const { return mixed_; }  ///< cells in which no assignment fits: all of their parts share their gas
 
  private:
@@ -53,6 +54,7 @@ class PartStep {
   WallRecord const* before_ = nullptr;
   WallRecord const* after_ = nullptr;
   std::vector<CellUnits> cells_;  ///< by key
+  CellPlaces places_;
   Index mixed_ = 0;
 };
 

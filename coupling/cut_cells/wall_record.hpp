@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/cut_cells/cell_map.hpp"
+#include "coupling/geometry/cell_map.hpp"
 #include "coupling/geometry/cell_parts.hpp"
 #include "coupling/geometry/cut_geometry.hpp"
 #include "coupling/geometry/nearest.hpp"
@@ -96,7 +96,8 @@ class WallRecord {
     return bary[0] * t.velocity[0] + bary[1] * t.velocity[1] + bary[2] * t.velocity[2];
   }
   std::size_t bytes() const {
-    return map_.bytes() + 7 * facing_[6].bytes() + geometry.pieces.capacity() * (sizeof(Piece) + sizeof(Facet));
+    return map_.bytes() + parts.bytes() + 7 * facing_[6].bytes() +
+           geometry.pieces.capacity() * (sizeof(Piece) + sizeof(Facet));
   }
   /// Boxes of the triangles that moved, changed their velocity, came or went between two records.
   static std::vector<CellBox> differences(WallRecord const& a, WallRecord const& b);

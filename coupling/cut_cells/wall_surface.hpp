@@ -8,7 +8,7 @@
 
 #include "core/solid/solid.hpp"
 #include "core/solid/surface.hpp"
-#include "coupling/cut_cells/cell_map.hpp"
+#include "coupling/geometry/cell_map.hpp"
 #include "coupling/geometry/surface.hpp"
 #include "fluid/flow.hpp"
 #include "parallel/archive.hpp"

@@ -191,21 +191,45 @@ struct Seen {
 
 }  // namespace
 
+void CellParts::index() {
+  std::vector<CellIndex> listed;
+  slots_.clear();
+  std::size_t cell = 0, opening = 0;
+  while (cell < cells.size() || opening < openings.size()) {
+    bool const next_is_cell = opening == openings.size() ||
+                              (cell < cells.size() && key_of(cells[cell].cell) <= key_of(openings[opening].low));
+    CellIndex const c = next_is_cell ? cells[cell].cell : openings[opening].low;
+    Slot slot;
+    if (next_is_cell) slot.cell = static_cast<Index>(cell++);
+    for (int d = 0; d < 3; ++d) {
+      slot.opening[static_cast<std::size_t>(d)] = static_cast<Index>(opening);
+      while (opening < openings.size() && openings[opening].low == c && openings[opening].direction == d) ++opening;
+    }
+    slot.opening[3] = static_cast<Index>(opening);
+    listed.push_back(c);
+    slots_.push_back(slot);
+  }
+  places_.list(listed);
+}
+
+std::size_t CellParts::bytes() const {
+  return cells.capacity() * sizeof(PartedCell) + of_piece.capacity() + openings.capacity() * sizeof(Opening) +
+         places_.bytes() + slots_.capacity() * sizeof(Slot);
+}
+
 PartedCell const* CellParts::find(CellIndex const& c) const {
-  if (cells.empty()) return nullptr;
-  auto const key = key_of(c);
-  auto const at = std::lower_bound(cells.begin(), cells.end(), key,
-                                   [](PartedCell const& p, std::uint64_t k) { return key_of(p.cell) < k; });
-  return at != cells.end() && at->cell == c ? &*at : nullptr;
+  Index const place = places_.of(c);
+  if (place < 0) return nullptr;
+  Index const cell = slots_[static_cast<std::size_t>(place)].cell;
+  return cell >= 0 ? &cells[static_cast<std::size_t>(cell)] : nullptr;
 }
 
 std::span<Opening const> CellParts::through(CellIndex const& low, int direction) const {
-  auto const order = [](Opening const& a, Opening const& b) {
-    return a.low != b.low ? a.low < b.low : a.direction < b.direction;
-  };
-  Opening const here{key_of(low), direction, 0, 0, 0};
-  auto const range = std::equal_range(openings.begin(), openings.end(), here, order);
-  return {range.first, range.second};
+  Index const place = places_.of(low);
+  if (place < 0) return {};
+  auto const& opening = slots_[static_cast<std::size_t>(place)].opening;
+  auto const d = static_cast<std::size_t>(direction);
+  return {openings.data() + opening[d], openings.data() + opening[d + 1]};
 }
 
 bool CellParts::joined(CellIndex const& low, int direction) const {
@@ -279,7 +303,7 @@ void divide(Lattice const& lattice, Geometry const& geometry, Real covered_volum
   auto const add = [&](CellIndex const& low, std::size_t d, std::uint8_t a, std::uint8_t b, Real area) {
     if (!(area > 1e-14)) return;  // rounding of a closed face
     Real const metres = area * lattice.face_area(static_cast<int>(d));
-    out.openings.push_back({key_of(low), static_cast<int>(d), a, b, metres});
+    out.openings.push_back({low, static_cast<int>(d), a, b, metres});
   };
   for (Seen& s : seen) {
     s.cell.first_part = static_cast<Index>(out.of_piece.size());
@@ -298,8 +322,9 @@ void divide(Lattice const& lattice, Geometry const& geometry, Real covered_volum
     }
   }
   std::stable_sort(out.openings.begin(), out.openings.end(), [](Opening const& a, Opening const& b) {
-    return a.low != b.low ? a.low < b.low : a.direction < b.direction;
+    return a.low != b.low ? key_of(a.low) < key_of(b.low) : a.direction < b.direction;
   });
+  out.index();
 }
 
 }  // namespace brisance::coupling

@@ -2,6 +2,7 @@
 #pragma once
 #include <span>
 
+#include "coupling/geometry/cell_map.hpp"
 #include "coupling/geometry/cut_geometry.hpp"
 
 namespace brisance::coupling {
@@ -23,7 +24,7 @@ struct PartedCell {
 
 /// What joins a part of a cell to a part of the next one along a direction.
 struct Opening {
-  std::uint64_t low = 0;  ///< key of the cell on the low side
+  CellIndex low{};  ///< the cell on the low side
   int direction = 0;
   std::uint8_t low_part = 0, high_part = 0;
   Real area = 0;  ///< m2
@@ -32,11 +33,15 @@ struct Opening {
 struct CellParts {
   std::vector<PartedCell> cells;       ///< sorted by key
   std::vector<std::uint8_t> of_piece;  ///< of the pieces of these cells
-  std::vector<Opening> openings;       ///< of all faces of these cells; sorted by low and direction
-  Index undivided = 0;                 ///< cells that opposite walls cross and which have one state all the same
-  CellIndex undivided_cell{};          ///< one of them
+  /// Of all faces of these cells, sorted by low and direction.
+  std::vector<Opening> openings;
+  Index undivided = 0;         ///< cells that opposite walls cross and which have one state all the same
+  CellIndex undivided_cell{};  ///< one of them
 
   bool empty() const { return cells.empty(); }
+  /// After `cells` and `openings` were filled: makes them found.
+  void index();
+  std::size_t bytes() const;
   /// Null where the fluid of a cell is connected.
   PartedCell const* find(CellIndex const& c) const;
   /// Openings of the face on the high side of `low`, when a cell beside it has parts.
@@ -48,6 +53,15 @@ struct CellParts {
   std::size_t part_of(PartedCell const& c, Index piece) const {
     return of_piece[static_cast<std::size_t>(c.first_part + piece - c.first_piece)];
   }
+
+ private:
+  /// Of a divided cell or the low side of an opening.
+  struct Slot {
+    Index cell = -1;                 ///< place in `cells`, -1: it is not divided
+    std::array<Index, 4> opening{};  ///< those along direction d begin at d and end at d + 1
+  };
+  CellPlaces places_;
+  std::vector<Slot> slots_;
 };
 
 /// Fills `out` for the cells of `geometry`. Parts are what is left connected by the pieces, joined along common edges,

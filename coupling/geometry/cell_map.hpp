@@ -1,8 +1,10 @@
 // A value per grid cell over a box of cells, with a default everywhere else.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include "coupling/geometry/surface.hpp"
@@ -106,6 +108,33 @@ class CellSet {
 
  private:
   CellMap<std::uint8_t> marks_;
+  std::vector<CellIndex> cells_;
+};
+
+/// Where the cells of a sparse list are in it.
+class CellPlaces {
+ public:
+  /// The list becomes that of `cells`.
+  void list(std::span<CellIndex const> cells) {
+    for (CellIndex const& c : cells_) places_.set(c, -1);
+    cells_.assign(cells.begin(), cells.end());
+    if (cells.empty()) return;
+    CellBox box{cells.front(), cells.front()};
+    for (CellIndex const& c : cells)
+      for (std::size_t d = 0; d < 3; ++d) {
+        box.low[d] = std::min(box.low[d], c[d]);
+        box.high[d] = std::max(box.high[d], c[d] + 1);
+      }
+    if (!contains(places_.range(), box)) places_.cover(box, -1);
+    for (std::size_t i = 0; i < cells.size(); ++i) places_.set(cells[i], static_cast<Index>(i));
+  }
+  /// -1: not in the list.
+  Index of(CellIndex const& c) const { return cells_.empty() ? -1 : places_.at(c); }
+  bool empty() const { return cells_.empty(); }
+  std::size_t bytes() const { return places_.bytes() + cells_.capacity() * sizeof(CellIndex); }
+
+ private:
+  CellMap<Index> places_;
   std::vector<CellIndex> cells_;
 };
 
