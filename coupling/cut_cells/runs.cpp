@@ -35,14 +35,15 @@ bool WallSweeper::reaches(CellIndex const& home, CellIndex const& image) const {
   return false;
 }
 
-void WallSweeper::find_same_side(CellIndex const& home, CellIndex const& image) {
+void WallSweeper::find_same_side(CellIndex const& home, std::span<CellIndex const> images, bool all) {
   fluid::Grid const& grid = flow_.grid();
   CellBox box{home, {home[0] + 1, home[1] + 1, home[2] + 1}};
-  for (std::size_t d = 0; d < 3; ++d) {
-    box.low[d] = std::min(box.low[d], image[d]);
-    box.high[d] = std::max(box.high[d], image[d] + 1);
-  }
-  box = grown(grid, box, 3);
+  for (CellIndex const& image : images)
+    for (std::size_t d = 0; d < 3; ++d) {
+      box.low[d] = std::min(box.low[d], image[d]);
+      box.high[d] = std::max(box.high[d], image[d] + 1);
+    }
+  box = grown(grid, box, 2);
   for (std::size_t d = 0; d < 3; ++d)
     box.low[d] = std::max(box.low[d], 0), box.high[d] = std::min(box.high[d], grid.cells[d]);
   // The marks cover the box and nothing else: a flood stops at its sides.
@@ -56,6 +57,8 @@ void WallSweeper::find_same_side(CellIndex const& home, CellIndex const& image) 
         n[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
         if (box.holds(n) && !same_side_.holds(n) && passes(c, d, side)) same_side_.insert(n);
       }
+    if (!all && std::all_of(images.begin(), images.end(), [&](CellIndex const& i) { return same_side_.holds(i); }))
+      return;
   }
 }
 
@@ -74,30 +77,50 @@ bool WallSweeper::wets(Index piece) const {
   return same_side_.holds(front);
 }
 
-MirrorCell WallSweeper::mirror(CellIndex c, int direction, int side, CellIndex const* home,
-                               std::vector<GlobalId>& wanted, Index& hint) {
+WallSweeper::Seen WallSweeper::look(CellIndex c, int direction, int side, Index& hint) const {
   fluid::Grid const& grid = flow_.grid();
-  Projection p = record_->project(c, direction, side, hint);
-  if (!p.found) return {};
-  CellIndex chosen = into_domain(grid, cell_of(grid, 2.0 * p.point - grid.centre(c)));
+  Seen seen{c, record_->project(c, direction, side, hint), {}, false};
+  if (seen.wall.found) seen.image = into_domain(grid, cell_of(grid, 2.0 * seen.wall.point - grid.centre(c)));
+  return seen;
+}
+
+bool WallSweeper::in_front(CellIndex const& n, Seen const& seen, int direction) const {
+  fluid::Grid const& grid = flow_.grid();
+  if (!grid.inside(n) || record_->solid(n)) return false;
+  return direction < 0 || dot(grid.centre(n) - seen.wall.point, seen.wall.normal) > -0.5 * smallest_spacing(grid);
+}
+
+void WallSweeper::keep_to_own_side(CellIndex const& home, std::span<Seen> seen, int direction, int side) {
   // A wall has another side: where the gas of the run does not come to the image straight ahead, it is asked how far
   // it comes at all, and only what it wets mirrors it.
-  bool const flooded = home && !reaches(*home, chosen);
-  if (flooded) {
-    find_same_side(*home, chosen);
-    if (!same_side_.holds(chosen)) {
-      Index none = -1;
-      p = record_->project(c, direction, side, none, [this](Index piece) { return wets(piece); });
-      if (!p.found) return {};
-      chosen = into_domain(grid, cell_of(grid, 2.0 * p.point - grid.centre(c)));
-    }
+  std::array<CellIndex, 3> images{};
+  std::size_t count = 0;
+  bool all = false;
+  for (Seen& s : seen) {
+    s.flooded = s.wall.found && !reaches(home, s.image);
+    if (!s.flooded) continue;
+    images[count++] = s.image;
+    all = all || !in_front(s.image, s, direction);
   }
-  Vec3 const image = 2.0 * p.point - grid.centre(c);
-  Real const h = smallest_spacing(grid);
+  if (count == 0) return;
+  find_same_side(home, std::span(images.data(), count), all);
+  for (Seen& s : seen) {
+    if (!s.flooded || same_side_.holds(s.image)) continue;
+    Index none = -1;
+    s.wall = record_->project(s.cell, direction, side, none, [this](Index piece) { return wets(piece); });
+    fluid::Grid const& grid = flow_.grid();
+    if (s.wall.found) s.image = into_domain(grid, cell_of(grid, 2.0 * s.wall.point - grid.centre(s.cell)));
+  }
+}
+
+MirrorCell WallSweeper::mirror(Seen const& seen, int direction, std::vector<GlobalId>& wanted) const {
+  if (!seen.wall.found) return {};
+  fluid::Grid const& grid = flow_.grid();
+  Projection const& p = seen.wall;
+  CellIndex chosen = seen.image;
+  Vec3 const image = 2.0 * p.point - grid.centre(seen.cell);
   auto const acceptable = [&](CellIndex n) {
-    if (!grid.inside(n) || record_->solid(n)) return false;
-    if (flooded && !same_side_.holds(n)) return false;
-    return direction < 0 || dot(grid.centre(n) - p.point, p.normal) > -0.5 * h;
+    return in_front(n, seen, direction) && (!seen.flooded || same_side_.holds(n));
   };
   if (!acceptable(chosen)) {
     CellIndex const middle = chosen;
@@ -155,12 +178,17 @@ void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction) 
   auto const wall_end = [&](CellIndex last, int outwards) {
     WallBlock::RunEnd end;
     Index hint = first_nearest[outwards > 0];
+    std::array<Seen, 3> seen;
     for (std::size_t m = 0; m < 3; ++m) {
       CellIndex c = last;
       c[d] += outwards * (static_cast<Index>(m) + 1);
-      end.mirror[m] = mirror(c, direction, -outwards, &last, wall.images, hint);
+      seen[m] = look(c, direction, -outwards, hint);
       if (m == 0) first_nearest[outwards > 0] = hint;
-      end.general[m] = end.mirror[m].place < 0 && m < 2 && record_->solid(c);
+    }
+    keep_to_own_side(last, seen, direction, -outwards);
+    for (std::size_t m = 0; m < 3; ++m) {
+      end.mirror[m] = mirror(seen[m], direction, wall.images);
+      end.general[m] = end.mirror[m].place < 0 && m < 2 && record_->solid(seen[m].cell);
     }
     ends.push_back(end);
     return static_cast<Index>(ends.size()) - 1;
@@ -227,7 +255,7 @@ void WallSweeper::find_solid(Block const& block, WallBlock& wall) {
   Index hint = -1;
   for (GlobalId const id : near) {
     CellIndex const c = cell_from_id(grid, id);
-    MirrorCell const m = mirror(c, -1, 0, nullptr, wall.images, hint);
+    MirrorCell const m = mirror(look(c, -1, 0, hint), -1, wall.images);
     wall.solid.emplace_back(CellIndex{c[0] - first[0], c[1] - first[1], c[2] - first[2]}, m);
   }
 }

@@ -3,6 +3,7 @@
 // blocks.
 #pragma once
 #include <map>
+#include <span>
 #include <vector>
 
 #include "coupling/cut_cells/state_gather.hpp"
@@ -111,14 +112,25 @@ class WallSweeper : public fluid::BlockSweeper {
   bool passes(CellIndex const& c, int direction, int side) const;
   /// Does it come from one cell to another along the axes, one after the other?
   bool reaches(CellIndex const& home, CellIndex const& image) const;
-  /// Fills same_side_: cells around the end of a run and an image that the gas of the run comes to.
-  void find_same_side(CellIndex const& home, CellIndex const& image);
+  /// Fills same_side_: cells around the end of a run and some images that the gas of the run comes to; unless `all` are
+  /// wanted, until it holds the images.
+  void find_same_side(CellIndex const& home, std::span<CellIndex const> images, bool all);
   /// Is that the gas in front of a piece?
   bool wets(Index piece) const;
   void find_solid(fluid::Block const& block, WallBlock& wall);
-  /// `home`: the end of the run that asks; nullptr for the general mirror state of a solid cell.
-  MirrorCell mirror(CellIndex c, int direction, int side, CellIndex const* home, std::vector<GlobalId>& wanted,
-                    Index& hint);
+  /// A solid cell, the point of the wall next to it and the cell of its image there.
+  struct Seen {
+    CellIndex cell{};
+    Projection wall;
+    CellIndex image{};
+    bool flooded = false;  ///< only cells of same_side_ may mirror it
+  };
+  Seen look(CellIndex c, int direction, int side, Index& hint) const;
+  /// May `n` mirror it? `direction` < 0: for the general mirror state.
+  bool in_front(CellIndex const& n, Seen const& seen, int direction) const;
+  /// Of the cells beyond a run that ends with `home`.
+  void keep_to_own_side(CellIndex const& home, std::span<Seen> seen, int direction, int side);
+  MirrorCell mirror(Seen const& seen, int direction, std::vector<GlobalId>& wanted) const;
   void refresh_mirrors();
   fluid::State image(MirrorCell const& mirror) const;
   /// Lowers the order of the faces of a run near cut cells, in its lane of scratch_order_.
