@@ -65,20 +65,25 @@ Index NearCells::target(Index i, std::span<Index const> taken) const {
   auto const offered = [&](Index j) {
     return j >= 0 && j != i && std::find(taken.begin(), taken.end(), j) == taken.end();
   };
-  Index best = -1;
-  Real best_score = 0;
+  Index best = -1, turned = -1;
+  Real best_score = 0, turned_score = 0;
   bool open = false;
+  bool const covered = c.volume <= covered_fraction * grid_.cell_volume();
   for (int d = 0; d < grid_.dimension; ++d)
     for (int side = 0; side < 2; ++side) {
       CellIndex n = c.cell;
       n[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
       Real const a = c.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] / grid_.face_area(d);
       Index const j = find(n);
-      if (!offered(j) || !(a > 1e-12)) continue;
+      if (!offered(j)) continue;
+      if (covered && a < -inside_out && cell(j).volume > covered_fraction * grid_.cell_volume())
+        consider(j, -a, turned, turned_score);
+      if (!(a > 1e-12)) continue;
       open = true;
       if (!(cell(j).volume > c.volume)) continue;
       consider(j, a + 0.5 * cell(j).volume / grid_.cell_volume(), best, best_score);
     }
+  if (turned >= 0) return turned;
   if (best >= 0 && open) return best;
   for_neighbourhood(grid_, c.cell, 1, [&](CellIndex n) {
     Index const j = find(n);

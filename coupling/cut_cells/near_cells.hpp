@@ -23,7 +23,8 @@ class NearCells {
   /// and its walls are not about to crush or to stretch it: it keeps its own state, and gas enters a crack cell by
   /// cell.
   bool drains(NearCell const& c) const;
-  /// The larger cell that a small one joins: along the wall's normal, through the widest face; -1: none. `taken`: not
+  /// The larger cell that a small one joins: along the wall's normal, through the widest face, or through one that is
+  /// inside out; -1: none. `taken`: not
   /// these again.
   Index target(Index i, std::span<Index const> taken) const;
   /// Cells are sorted by id and visited in any order: a tie goes to the lower one.

@@ -331,34 +331,34 @@ bool WallSweeper::turned(CellIndex const& c, int direction, int side, Real part)
 }
 
 bool WallSweeper::bound(CellIndex const& c) const {
-  if (!record_->solid(c)) return false;
-  for (int d = 0; d < flow_.grid().dimension; ++d)
-    for (int side = 0; side < 2; ++side) {
-      CellIndex other = c;
-      other[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
-      if (turned(c, d, side, inside_out) && record_->solid(other)) return true;
-    }
-  return false;
+  bool found = false;
+  for (int d = 0; record_->solid(c) && d < flow_.grid().dimension; ++d)
+    for (int side = 0; side < 2; ++side) found = found || turned(c, d, side, inside_out);
+  return found;
 }
 
-/// Of its mirror state. Cells that a face binds have one: what is left of the forces in them goes to the gas beside
-/// them.
+/// Of its mirror state. Cells that a face binds have one, that of the gas if there is any beside it: what is left of
+/// the forces in them goes to their group.
 Real WallSweeper::pressure_of_solid(Block const& block, CellIndex const& local) const {
   auto const at = [&](CellIndex const& c) { return flow_.gas().pressure(block.load(c[0], c[1], c[2])); };
-  Real sum = at(local);
   CellIndex c = block.first();
   for (std::size_t d = 0; d < 3; ++d) c[d] += local[d];
-  if (record_->cut_index(c) < 0 && next_.cut_index(c) < 0) return sum;
-  int count = 1;
+  Real const own = at(local);
+  if (record_->cut_index(c) < 0 && next_.cut_index(c) < 0) return own;
+  Real beside = own, gas = 0;
+  int solids = 1, gases = 0;
   for (int d = 0; d < flow_.grid().dimension; ++d)
     for (int side = 0; side < 2; ++side) {
       if (!turned(c, d, side, inside_out)) continue;
       CellIndex other = c, there = local;
       other[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
       there[static_cast<std::size_t>(d)] += side == 0 ? -1 : 1;
-      if (record_->solid(other)) sum += at(there), ++count;
+      if (record_->solid(other))
+        beside += at(there), ++solids;
+      else
+        gas += at(there), ++gases;
     }
-  return sum / count;
+  return gases > 0 ? gas / gases : beside / solids;
 }
 
 Vec3 WallSweeper::wall_velocity_beside(CellIndex const& low, CellIndex const& high) const {

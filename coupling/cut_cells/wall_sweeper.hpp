@@ -76,8 +76,7 @@ class WallSweeper : public fluid::BlockSweeper {
   void keep(WallRecord const& record);
   /// Collective. Puts a mirrored state into every solid cell near the walls; `mirrored`: image -> state.
   void set_mirrors(std::function<fluid::State(fluid::State const&, MirrorCell const&)> const& mirrored);
-  /// Is the cell one with another covered one behind a face that is inside out, now or after the step? Pieces in them
-  /// feel one pressure.
+  /// Is it a solid cell with a face that is inside out, now or after the step? Pieces on both sides feel one pressure.
   bool bound(CellIndex const& c) const;
   /// Keeps U^n of the wall blocks.
   void begin_step();
