@@ -307,5 +307,45 @@ TEST(Mixing, CellsOfAGapKeepTheirOwnState) {
   expect_conserved(c.cells());
 }
 
+/// Two bodies overlap in a grid plane: between the covered cells (1, 0) and (1, 1) the whole face is inside out, and
+/// its flux has moved half a cell of gas. A crack of 1e-7 opens (1, 1) to the gas at its left, the other goes to the
+/// right.
+TEST(Mixing, NoGasComesThroughAFaceThatIsInsideOut) {
+  fluid::Grid grid;
+  grid.dimension = 2;
+  grid.cells = {4, 2, 1};
+  std::vector<NearCell> cells;
+  for (Index j = 0; j < 2; ++j)
+    for (Index i = 0; i < 4; ++i) {
+      NearCell& c = cells.emplace_back();
+      c.cell = {i, j, 0};
+      c.id = grid.cell_id(c.cell);
+      c.mine = c.rewritten = true;
+    }
+  auto const set = [&](std::size_t at, Real volume, State const& u, Real moved) {
+    cells[at].volume = cells[at].volume_before = volume * grid.cell_volume();
+    for (std::size_t q = 0; q < 5; ++q) cells[at].amount[q] = (volume + moved) * grid.cell_volume() * u[q];
+  };
+  State const left{3, 0, 0, 0, 6}, right{1, 0, 0, 0, 2};
+  set(1, -4e-4, right, -0.5);
+  set(5, 1e-10, right, 0.5);
+  set(2, -2e-8, right, 0);
+  set(4, 0.9, left, 0);
+  set(6, 1, right, 0);
+  set(7, 1, right, 0);
+  auto const face = [&](std::size_t low, std::size_t high, std::size_t d, Real part) {
+    cells[low].aperture[d][1] = cells[high].aperture[d][0] = part * grid.face_area(static_cast<int>(d));
+  };
+  face(1, 5, 1, -1);
+  face(4, 5, 0, 1e-7);
+  face(1, 2, 0, -8e-4);
+  face(6, 7, 0, 1);
+  EXPECT_EQ(merge_small_cells(grid, small_cell, Sight::everything, cells).trouble, "");
+  EXPECT_EQ(cells[1].group, cells[5].group);
+  EXPECT_EQ(cells[5].group, cells[6].group);
+  EXPECT_FALSE(cells[4].grouped);
+  EXPECT_NEAR(cells[6].mean[0], 1, 1e-12);
+}
+
 }  // namespace
 }  // namespace brisance::coupling
