@@ -123,6 +123,7 @@ class CutCells : public Effect {
   void transfers();
   /// Collective. Cells around the walls, of this rank and next to it, that hold a vacuum at the start of the step.
   void find_vacuum(WallRecord const& record, bool initial);
+  bool between_walls(WallRecord const& record, CutCell const& cut) const;
   /// Collective. Links of the mesh that broke since broken_ was brought up to date, which this does; false if none.
   bool gather_broken();
   /// Collective. Cuts the cells by the predicted boundary; false when it is not closed around some cell of some rank.

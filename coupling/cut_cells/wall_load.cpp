@@ -29,6 +29,20 @@ Real CutCells::half_riemann(State const& u, Vec3 const& wall_velocity, Vec3 cons
   return theta * exact + 1 - theta;
 }
 
+/// A film between walls that face each other, or bodies that overlap. Many of these share the gas of one group: with
+/// the factor of its velocity they would brake it by more than it has.
+bool CutCells::between_walls(WallRecord const& record, CutCell const& cut) const {
+  if (!record_.solid(cut.cell) && cut.volume > 0.1 * flow_.grid().cell_volume()) return false;
+  Vec3 sum;
+  Real total = 0;
+  for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
+    Vec3 const& area = record.geometry.pieces[static_cast<std::size_t>(f)].area;
+    sum += area;
+    total += norm(area);
+  }
+  return norm(sum) < 0.5 * total;
+}
+
 void CutCells::find_vacuum(WallRecord const& record, bool initial) {
   fluid::Grid const& grid = flow_.grid();
   vacuum_.clear();
@@ -89,13 +103,13 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
     if (record_.solid(cut.cell))
       if (MirrorCell const* const mirror = wall.mirror_at({i, j, k}); mirror && mirror->slot >= 0)
         main = reflect(main, *mirror);
-    // The factor is 1 in or next to a vacuum cell, and where bodies overlap.
+    // The factor is 1 in or next to a vacuum cell, and between walls.
     bool vacuum = false;
     if (!vacuum_.empty())
       for_neighbourhood(grid, cut.cell, 1, [&](CellIndex n) {
         vacuum = vacuum || (grid.inside(n) && std::binary_search(vacuum_.begin(), vacuum_.end(), grid.cell_id(n)));
       });
-    bool const no_gas = vacuum || (!initial && sweeper_.bound(cut.cell));
+    bool const factor_one = vacuum || between_walls(record, cut) || (!initial && sweeper_.bound(cut.cell));
     Vec3 main_pressure;
     for (int d = 0; d < grid.dimension; ++d)
       main_pressure[d] =
@@ -116,7 +130,7 @@ void CutCells::wall_pressure(WallRecord const& record, bool initial, std::vector
         }
       }
       Vec3 const velocity = record.wall_velocity(piece.triangle, piece.bary_centroid);
-      Real const chi = no_gas ? 1 : half_riemann(u, velocity, piece.area);
+      Real const chi = factor_one ? 1 : half_riemann(u, velocity, piece.area);
       piece_factor_[static_cast<std::size_t>(f)] = chi;
       PieceFriction const friction = viscous_ && !initial ? (*viscous_)[static_cast<std::size_t>(f)] : PieceFriction{};
       Vec3 const felt = force_on_solid(chi, pressure, piece.area), force = felt + friction.force;

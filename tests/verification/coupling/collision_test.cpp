@@ -110,5 +110,42 @@ TEST(Collision, BricksOnTheGround) {
                                 c.conservation().exchange_energy, 1e-14));
 }
 
+/// A block sinks a thousandth of a cell into the floor, between gas at twice the pressure and gas at rest: nothing
+/// comes through the joint, in a grid plane (where the faces of the cells there are inside out all over) or off it.
+void joint(int dimension, Real floor) {
+  auto const point = [&](Real x, Real y, Real z) {
+    return "[" + digits(x) + ", " + digits(y) + (dimension == 3 ? ", " + digits(z) : "") + "]";
+  };
+  auto const everywhere = "{ low = " + point(-9, -9, -9) + ", high = " + point(9, 9, 9);
+  std::string const body = std::string("cells = ") + (dimension == 3 ? "[1, 1, 1]" : "[1, 1]") + "\n";
+  CoupledCase c("end_time = 0.4\n[fluid]\nlow = " + point(0, 0, 0) + "\nhigh = " + point(1, 0.5, 0.1) + "\ncells = " +
+                (dimension == 3 ? "[40, 20, 4]" : "[40, 20]") + "\nambient = " + gas_state(1.4, 1, {}, dimension) +
+                "\neuler = { order = 5, cfl = 0.5 }\n[[fluid.region]]\nlow = " + point(-9, -9, -9) +
+                "\nhigh = " + point(0.5, 9, 9) + "\ndensity = 2.8\npressure = 2\n[solid]\n" + rigid_material(1) +
+                "[[solid.body]]\nname = \"floor\"\nmaterial = \"rigid\"\nlow = " + point(-0.3, -0.3, -0.3) +
+                "\nhigh = " + point(1.3, floor, 0.4) + "\n" + body + "hold = [" + everywhere + " }]\n" +
+                "[[solid.body]]\nname = \"block\"\nmaterial = \"rigid\"\nlow = " + point(0.4137, floor, -0.3) +
+                "\nhigh = " + point(0.6, 0.8, 0.4) + "\n" + body + "prescribed = [" + everywhere +
+                ", velocity = " + point(0, -6.25e-5, 0) + " }]\n[coupling]\ncut_cells = {}\n");
+  c.run();
+  Real fastest = 0, change = 0;
+  c.for_fluid([&](fluid::CellIndex cell, fluid::State const& u, Real volume) {
+    fluid::Grid const& grid = c.world->flow->grid();
+    if (volume < 0.5 * grid.cell_volume()) return;
+    fastest = max(fastest, norm(Vec3{u[1], u[2], u[3]}) / u[0]);
+    change = max(change, std::abs(u[0] / (grid.centre(cell).x < 0.5 ? 2.8 : 1.4) - 1));
+  });
+  std::string const variant = std::to_string(dimension) + "D; floor at " + digits(floor);
+  EXPECT_TRUE(evidence::at_most("V12", "joint between bodies that overlap", variant, "speed of the gas beside it",
+                                fastest, 5e-3));
+  EXPECT_TRUE(
+      evidence::at_most("V12", "joint between bodies that overlap", variant, "change of density", change, 5e-3));
+}
+
+TEST(Collision, AJointIsTight) {
+  for (int const dimension : {2, 3})
+    for (Real const floor : {0.2, 0.2137, 0.2249}) joint(dimension, floor);
+}
+
 }  // namespace
 }  // namespace brisance
