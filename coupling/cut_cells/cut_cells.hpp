@@ -123,6 +123,8 @@ class CutCells : public Effect {
   void transfers();
   /// Collective. Cells around the walls, of this rank and next to it, that hold a vacuum at the start of the step.
   void find_vacuum(WallRecord const& record, bool initial);
+  /// A film between walls that face each other, or bodies that overlap. Many of these share the gas of one group: with
+  /// the factor of its velocity they would brake it by more than it has.
   bool between_walls(WallRecord const& record, CutCell const& cut) const;
   /// Collective. Links of the mesh that broke since broken_ was brought up to date, which this does; false if none.
   bool gather_broken();

@@ -24,8 +24,7 @@ class NearCells {
   /// cell.
   bool drains(NearCell const& c) const;
   /// The larger cell that a small one joins: along the wall's normal, through the widest face, or through one that is
-  /// inside out; -1: none. `taken`: not
-  /// these again.
+  /// inside out; -1: none. `taken`: not these again.
   Index target(Index i, std::span<Index const> taken) const;
   /// Cells are sorted by id and visited in any order: a tie goes to the lower one.
   static void consider(Index j, Real score, Index& best, Real& best_score) {

@@ -29,8 +29,6 @@ Real CutCells::half_riemann(State const& u, Vec3 const& wall_velocity, Vec3 cons
   return theta * exact + 1 - theta;
 }
 
-/// A film between walls that face each other, or bodies that overlap. Many of these share the gas of one group: with
-/// the factor of its velocity they would brake it by more than it has.
 bool CutCells::between_walls(WallRecord const& record, CutCell const& cut) const {
   if (!record_.solid(cut.cell) && cut.volume > 0.1 * flow_.grid().cell_volume()) return false;
   Vec3 sum;

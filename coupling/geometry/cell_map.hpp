@@ -130,7 +130,6 @@ class CellPlaces {
   }
   /// -1: not in the list.
   Index of(CellIndex const& c) const { return cells_.empty() ? -1 : places_.at(c); }
-  bool empty() const { return cells_.empty(); }
   std::size_t bytes() const { return places_.bytes() + cells_.capacity() * sizeof(CellIndex); }
 
  private:

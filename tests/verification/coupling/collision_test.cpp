@@ -97,15 +97,29 @@ TEST(Collision, InThreeDimensions) {
   }
 }
 
-/// Bricks that overlap the floor on a reflecting side: that side must not drive the gas into the cracks.
+/// Bricks that overlap the floor on a reflecting side: that side must not drive the gas into the cracks, nor the
+/// joints.
 TEST(Collision, BricksOnTheGround) {
   if (!evidence::full()) GTEST_SKIP() << "full suite only";
   std::ifstream file(BRISANCE_SOURCE_DIR "/jobs/scenes/blast-bricks.toml");
   std::ostringstream text;
   text << file.rdbuf();
   CoupledCase c(text.str(), {"fluid.cells=[32, 24, 16]", "fluid.block=16"});
-  c.run();
-  // Where it does, cells mix far and wide, and what is exchanged drowns in rounding: 1e-12.
+  // The joints lie in grid planes: what they let through would show as gas colder than still air at its pressure.
+  fluid::Gas const& gas = c.world->flow->gas();
+  Real still = 0, least = 1;
+  c.for_fluid([&](fluid::CellIndex cell, fluid::State const& u, Real) {
+    if (cell == fluid::CellIndex{31, 0, 15}) still = gas.pressure(u) / std::pow(u[0], 1.4);
+  });
+  c.run(-1, [&] {
+    c.for_fluid([&](fluid::CellIndex, fluid::State const& u, Real volume) {
+      if (volume < 0.5 * c.world->flow->grid().cell_volume()) return;
+      least = min(least, gas.pressure(u) / std::pow(u[0], 1.4) / still);
+    });
+  });
+  EXPECT_TRUE(evidence::at_most("V12", "bricks on the ground", "20 ms after a blast", "entropy below that of still air",
+                                1 - least, 0.1));
+  // Where gas is driven, cells mix far and wide, and what is exchanged drowns in rounding: 1e-12.
   EXPECT_TRUE(evidence::at_most("V12", "bricks on the ground", "20 ms after a blast", "exchange energy defect",
                                 c.conservation().exchange_energy, 1e-14));
 }
