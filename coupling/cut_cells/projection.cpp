@@ -90,4 +90,24 @@ Projection WallRecord::project(CellIndex c, int direction, int side, Index& hint
   return p;
 }
 
+bool WallRecord::oblique_near(CellIndex const& c) const {
+  constexpr Index within = 2;
+  auto const dimension = static_cast<std::size_t>(grid_->dimension);
+  // The ranks on either side of a periodic side know different walls.
+  for (std::size_t d = 0; d < dimension; ++d)
+    if (grid_->periodic[d] && (c[d] < within || c[d] >= grid_->cells[d] - within)) return false;
+  Index const ry = dimension > 1 ? within : 0, rz = dimension > 2 ? within : 0;
+  for (Index k = -rz; k <= rz; ++k)
+    for (Index j = -ry; j <= ry; ++j) {
+      std::uint64_t facing = 0;  // cells of the row whose pieces face an earlier direction
+      for (std::size_t d = 0; d < dimension; ++d) {
+        CellIndex const row{c[0], c[1] + j, c[2] + k};
+        std::uint64_t const here = facing_[2 * d].around(row, within) | facing_[2 * d + 1].around(row, within);
+        if (facing & here) return true;
+        facing |= here;
+      }
+    }
+  return false;
+}
+
 }  // namespace brisance::coupling

@@ -87,6 +87,9 @@ class WallRecord {
   /// `eligible`: the pieces that may be found; none given: all.
   Projection project(CellIndex c, int direction, int side, Index& hint,
                      std::function<bool(Index)> const& eligible = {}) const;
+  /// Does a wall at an angle to the grid, of 3 degrees or more, or a corner stand within two cells of `c`? Beside a
+  /// periodic side: no.
+  bool oblique_near(CellIndex const& c) const;
 
   fluid::Grid const& grid() const { return *grid_; }
   Lattice const& lattice() const { return lattice_; }

@@ -266,7 +266,13 @@ fluid::SweepReport WallSweeper::sweep(Block& block, int direction, Real dt) {
         for (Index i = -1; i <= longest; ++i) {
           CellIndex at = c;
           at[d] = std::min(start + std::clamp(i, std::max(run.begin - start, Index{-1}), run.end - 1 - start), n);
-          if (*marks->at(at[0], at[1], at[2]) & across) scratch_marks_[static_cast<std::size_t>(i + 1)] |= 1u << lane;
+          if ((*marks->at(at[0], at[1], at[2]) & across) == 0) continue;
+          // A shock stands upright on a wall: beside an oblique one it does not run along the grid, and the pairs of
+          // cells that would tell the sensor so are in the wall.
+          CellIndex global = block.first();
+          for (std::size_t e = 0; e < 3; ++e) global[e] += at[e];
+          if (!record_->oblique_near(into_domain(flow_.grid(), global)))
+            scratch_marks_[static_cast<std::size_t>(i + 1)] |= 1u << lane;
         }
       for (Index f = 0; f <= longest; ++f) {
         Index const at = start + f;
