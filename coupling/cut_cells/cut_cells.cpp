@@ -70,7 +70,7 @@ void CutCells::begin() {
   mix();
   sweeper_.rebuild(record_);
   std::vector<CellForce> forces;
-  wall_pressure(record_, true, forces);
+  wall_pressure(record_, true, 0, forces);
   surface_.apply(forces, LoadOf::present);
   start_.clear();
   remark_on_start();
@@ -108,7 +108,7 @@ void CutCells::join(Plan& plan) {
   plan.at(Stage::boundary, [this](Clock const&) { new_geometry(); });
   plan.at(Stage::load_solid, [this, &plan](Clock const& c) {
     if (scheme_ == TimeCoupling::explicit_load)
-      load_at_start();
+      load_at_start(c.dt);
     else if (load_solid(c))
       plan.ask_for_boundary();
   });

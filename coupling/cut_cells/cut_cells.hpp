@@ -87,7 +87,7 @@ class CutCells : public Effect {
   /// lag, semi: loads on the boundary of record. Semi: true when the boundary has to follow them once more.
   bool load_solid(Clock const& clock);
   /// explicit: loads on the boundary at t^n.
-  void load_at_start();
+  void load_at_start(Real dt);
   void end_drift(Clock const& clock);
   void update_contents(Real dt);
   void mix();
@@ -106,7 +106,7 @@ class CutCells : public Effect {
   void store(std::vector<NearCell> const& cells);
   /// Collective. The members of every group take the linear profile of their group instead of its mean.
   void spread(std::vector<NearCell> const& cells);
-  void wall_pressure(WallRecord const& record, bool initial, std::vector<CellForce>& forces);
+  void wall_pressure(WallRecord const& record, bool initial, Real dt, std::vector<CellForce>& forces);
   /// What a part of the wall with this velocity receives in a step is taken from `amount`.
   void take(Vec3 const& force, Real heat, Vec3 const& velocity, Real dt, fluid::State& amount);
   /// So is what the load on this area of a triangle of next_ differs from what the solid receives.
@@ -124,7 +124,8 @@ class CutCells : public Effect {
   /// Collective. Cells around the walls, of this rank and next to it, that hold a vacuum at the start of the step.
   void find_vacuum(WallRecord const& record, bool initial);
   /// A film between walls that face each other, or bodies that overlap. Many of these share the gas of one group: with
-  /// the factor of its velocity they would brake it by more than it has.
+  /// the factor of its velocity they would brake it by more than it has. So would any gap of less than a cell above a
+  /// reflecting side, where the groups of its cells change as it opens.
   bool between_walls(WallRecord const& record, CutCell const& cut) const;
   /// Collective. Links of the mesh that broke since broken_ was brought up to date, which this does; false if none.
   bool gather_broken();
@@ -198,7 +199,10 @@ class CutCells : public Effect {
   void account(Ledger& ledger);
   void digest(parallel::Digest& digest) const;
   bool owned(CellIndex c) const;
-  Real half_riemann(fluid::State const& u, Vec3 const& wall_velocity, Vec3 const& area) const;
+  /// Factor chi of the wall pressure. `now`: pressures of the cell before each sweep; `dt_per_depth`: step over depth
+  /// of the cell before its walls, s/m, negative where bodies overlap.
+  Real half_riemann(fluid::State const& u, Vec3 const& wall_velocity, Vec3 const& area, Vec3 const& now,
+                    Real dt_per_depth) const;
 
   CutCellsConfig config_;
   TimeCoupling scheme_;

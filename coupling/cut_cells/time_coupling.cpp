@@ -35,7 +35,7 @@ void CutCells::begin_step(Clock const& clock) {
 bool CutCells::load_solid(Clock const& clock) {
   std::vector<CellForce> forces;
   if (viscous_) viscous_->find(record_, next_, moved_);
-  wall_pressure(next_, false, forces);
+  wall_pressure(next_, false, clock.dt, forces);
   surface_.apply(forces, moved_ ? LoadOf::end : LoadOf::present);
   solid_.restore(solid_before_);
   if (scheme_ == TimeCoupling::lag) return false;
@@ -59,13 +59,13 @@ bool CutCells::load_solid(Clock const& clock) {
   return false;
 }
 
-void CutCells::load_at_start() {
+void CutCells::load_at_start(Real dt) {
   std::vector<CellForce> forces;
   // The half-Riemann factor brakes the wall: with the velocity of the step before it would push what vibrates fast.
   surface_.send_velocities(record_.triangles);
   if (viscous_) viscous_->find(record_, record_, true);
   at_start_.begin(record_);
-  wall_pressure(record_, false, forces);
+  wall_pressure(record_, false, dt, forces);
   at_start_.exchange(record_, flow_, comm_);
   surface_.apply(forces, LoadOf::start);
 }
