@@ -22,7 +22,7 @@ bool WallSweeper::mirrors_another(CellIndex const& solid, CellIndex const& gas, 
   } else {
     std::vector<GlobalId> wanted;
     Index hint = -1;
-    m = mirror(solid, -1, 0, nullptr, wanted, hint);
+    m = mirror(look(solid, -1, 0, hint), -1, wanted);
     if (m.place >= 0) image = cell_from_id(grid, wanted.front());
   }
   if (m.place < 0) return false;
@@ -33,7 +33,7 @@ bool WallSweeper::mirrors_another(CellIndex const& solid, CellIndex const& gas, 
 
 bool WallSweeper::one_gas(CellIndex const& a, CellIndex const& b) {
   if (reaches(a, b)) return true;
-  find_same_side(a, b);
+  find_same_side(a, std::span(&b, 1), false);
   return same_side_.holds(b);
 }
 
@@ -83,7 +83,9 @@ void WallSweeper::find_apart(Block const& block, WallBlock& wall) {
         if (!grid.inside(n)) continue;
         bool const solid = record_->solid(n);
         if (solid ? !solid_shows_another(n, c, d, block, wall) : !parted(side == 0 ? n : c, d)) continue;
-        MirrorCell const m = mirror(n, d, -out, &c, unwanted, hint);
+        Seen seen = look(n, d, -out, hint);
+        keep_to_own_side(c, std::span(&seen, 1), d, -out);
+        MirrorCell const m = mirror(seen, d, unwanted);
         ApartFace const face{local, d, side, solid, m.place >= 0, m.normal, m.wall_velocity};
         wall.apart.push_back(face);
         // The ghosts beyond the sides of the domain are parted like the cells they stand beside.
