@@ -37,6 +37,13 @@ bool WallSweeper::one_gas(CellIndex const& a, CellIndex const& b) {
   return same_side_.holds(b);
 }
 
+bool WallSweeper::two_gases(CellIndex const& low, int direction) {
+  CellIndex const high = beside(low, direction, 1);
+  if (!parted(low, direction)) return false;
+  // The face may be closed by the corner of a body as well.
+  return record_->parts.find(low) || record_->parts.find(high) || !one_gas(low, high);
+}
+
 bool WallSweeper::solid_shows_another(CellIndex const& solid, CellIndex const& gas, int direction, Block const& block,
                                       WallBlock const& wall) {
   fluid::Grid const& grid = flow_.grid();
@@ -82,7 +89,7 @@ void WallSweeper::find_apart(Block const& block, WallBlock& wall) {
         CellIndex const n = beside(c, d, out);
         if (!grid.inside(n)) continue;
         bool const solid = record_->solid(n);
-        if (solid ? !solid_shows_another(n, c, d, block, wall) : !parted(side == 0 ? n : c, d)) continue;
+        if (solid ? !solid_shows_another(n, c, d, block, wall) : !two_gases(side == 0 ? n : c, d)) continue;
         Seen seen = look(n, d, -out, hint);
         keep_to_own_side(c, std::span(&seen, 1), d, -out);
         MirrorCell const m = mirror(seen, d, unwanted);

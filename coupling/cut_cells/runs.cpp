@@ -269,11 +269,14 @@ void WallSweeper::renew(Block const& block) {
   wall.beside_parted.clear();
   for (int d = 0; d < grid.dimension; ++d) {
     find_runs(block, wall, d);
-    for (CellIndex const& high : wall.parted[static_cast<std::size_t>(d)])
-      for (CellIndex const& c : {beside(high, d, -1), high})
-        if (c[static_cast<std::size_t>(d)] >= 0 &&
-            c[static_cast<std::size_t>(d)] < wall.size[static_cast<std::size_t>(d)])
-          wall.beside_parted.push_back(wall.cell(c[0], c[1], c[2]));
+    CellIndex const first = block.first();
+    auto const dir = static_cast<std::size_t>(d);
+    for (CellIndex const& high : wall.parted[dir]) {
+      CellIndex const low = beside(high, d, -1);
+      if (!two_gases({first[0] + low[0], first[1] + low[1], first[2] + low[2]}, d)) continue;
+      for (CellIndex const& c : {low, high})
+        if (c[dir] >= 0 && c[dir] < wall.size[dir]) wall.beside_parted.push_back(wall.cell(c[0], c[1], c[2]));
+    }
   }
   std::sort(wall.beside_parted.begin(), wall.beside_parted.end());
   find_solid(block, wall);

@@ -71,7 +71,7 @@ struct WallBlock {
   std::array<std::vector<Run>, 3> runs;  ///< longest first
   std::array<std::vector<RunEnd>, 3> ends;
   std::array<std::vector<CellIndex>, 3> parted;         ///< local cells above closed faces between two fluid cells
-  std::vector<std::size_t> beside_parted;               ///< cells of the block beside these faces, sorted
+  std::vector<std::size_t> beside_parted;               ///< cells of the block beside those between two gases, sorted
   std::vector<std::pair<CellIndex, MirrorCell>> solid;  ///< local cells with their general mirror states, sorted by id
   std::vector<GlobalId> images;                         ///< of all mirror cells of the block
   std::vector<ApartFace> apart;                         ///< sorted; empty without viscosity
@@ -142,6 +142,8 @@ class WallSweeper : public fluid::BlockSweeper {
   /// Does the general mirror state of a solid cell, in a block or beside it, stand for another gas than that of its
   /// neighbour?
   bool mirrors_another(CellIndex const& solid, CellIndex const& gas, fluid::Block const& block, WallBlock const& wall);
+  /// Does a face that is parted have different gases on its sides, as far as the next cells tell?
+  bool two_gases(CellIndex const& low, int direction);
   /// Does the gas come from one cell to another that is not far away?
   bool one_gas(CellIndex const& a, CellIndex const& b);
   /// Does the stencil of the face between a gas and a solid cell across `direction` see another gas there?
