@@ -25,8 +25,8 @@ void GasBeside::find(WallRecord const& record, CellIndex const& c, std::size_t p
     met_.push_back({n, p});
   };
   meet(c, part);
-  for (std::size_t next = 0; next < met_.size(); ++next) {
-    Unit const from = met_[next];
+  for (std::size_t next = 0; next < met_.size();) {  // it grows
+    Unit const from = met_[next++];
     for_openings(record, from.cell, from.part, [&](CellIndex n, std::size_t p, int d, Real area) {
       if (area > covered_fraction * record.lattice().face_area(d)) meet(n, p);
     });
