@@ -70,8 +70,8 @@ std::string ring(Real cells_thick, Ring kind, std::string const& options) {
          "[coupling]\ncut_cells = { " + options + " }\n";
 }
 
-void check_ring(Real cells_thick, Ring kind, std::string const& options = "") {
-  CoupledCase c(ring(cells_thick, kind, options));
+void check_ring(Real cells_thick, Ring kind, std::string const& options = "", std::string const& scheme = "lag") {
+  CoupledCase c(ring(cells_thick, kind, options), {"coupling.scheme=\"" + scheme + "\""});
   Vec3 const drift = kind == Ring::drifting ? Vec3{13, 7, 0} : Vec3{};
   Real const before = mass_inside(c, centre, inner_radius + 0.4 * cells_thick * h);
   Real lost = 0;
@@ -90,7 +90,7 @@ void check_ring(Real cells_thick, Ring kind, std::string const& options = "") {
                               (kind == Ring::held        ? "held"
                                : kind == Ring::breathing ? "breathing"
                                                          : "drifting, spinning") +
-                              (options.empty() ? "" : "; " + options);
+                              (options.empty() ? "" : "; " + options) + (scheme == "lag" ? "" : "; " + scheme);
   EXPECT_TRUE(at_most(name, variant, "share of the gas that is lost", lost, 1e-12));
   check_conservation(c, name, variant);
   if (kind == Ring::held) {
@@ -106,6 +106,11 @@ TEST(ThinWalls, BreathingRing) {
 }
 TEST(ThinWalls, DriftingRing) {
   for (Real const t : {0.2, 0.32, 0.8, 1.2}) check_ring(t, Ring::drifting);
+}
+
+TEST(ThinWalls, RingWithExplicitLoads) {
+  for (Real const t : {0.2, 0.8})
+    for (Ring const kind : {Ring::held, Ring::breathing, Ring::drifting}) check_ring(t, kind, "", "explicit");
 }
 
 // Cells beside the wall keep their mean and are merged, the others have profiles and are redistributed.
