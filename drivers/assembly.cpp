@@ -185,10 +185,7 @@ std::unique_ptr<World> assemble(Scene const& scene, parallel::Comm& comm) {
         "Model the whole body, or leave out the coupling");
   if (coupled) require_clear_periodic_sides(scene, *grid, *w.mesh, *w.surface);
   if (coupled) require_gauges_in_the_gas(scene, *grid, *w.mesh);
-  if (coupled)
-    w.walls = survey_walls(*grid, *w.mesh, *w.surface,
-                           !scene.fluid->viscosity &&
-                               coupling::divides_cells(*scene.coupling->cut_cells, scene.coupling->time_coupling()));
+  if (coupled) w.walls = survey_walls(*grid, *w.mesh, *w.surface);
   if (!w.walls.thin.empty()) w.plan.remark(w.walls.thin);
   w.partition = assign_owners(scene, grid ? &*grid : nullptr, w.mesh.get(), w.walls.work, comm.size());
   auto const blocks = static_cast<std::ptrdiff_t>(grid ? grid->block_count() : 0);

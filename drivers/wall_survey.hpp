@@ -12,11 +12,10 @@ namespace brisance::drivers {
 struct WallSurvey {
   std::vector<Index> cells;        ///< cut cells of each block
   std::vector<std::int64_t> work;  ///< what they cost, in plain cells
-  std::string thin;                ///< a warning for people: walls thinner than a cell; empty: none
+  std::string thin;                ///< a warning for people: cells that thin walls do not divide; empty: none
 };
 
-/// `divides`: cells have a state for every connected part of their gas; walls are then too thin only where a cell does
-/// not decompose. Errors: scene or numerical error when the surface is not closed, or is inside out.
-WallSurvey survey_walls(fluid::Grid const& grid, solid::Mesh const& mesh, solid::Surface const& surface, bool divides);
+/// Errors: scene or numerical error when the surface is not closed, or is inside out.
+WallSurvey survey_walls(fluid::Grid const& grid, solid::Mesh const& mesh, solid::Surface const& surface);
 
 }  // namespace brisance::drivers

@@ -36,6 +36,13 @@ brisance_same_digest(ledger-by-stages ${scenes}/colliding-fragments.toml 60 --se
 set_tests_properties(same_digest.ledger-by-stages PROPERTIES ENVIRONMENT BREAKING=1)
 brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40)
 brisance_same_digest(thin-shell ${scenes}/thin-shell.toml 12)
+brisance_same_digest(thin-plates ${PROJECT_SOURCE_DIR}/tests/support/scenes/thin-plates.toml 60)
+brisance_same_digest(thin-plates-explicit ${PROJECT_SOURCE_DIR}/tests/support/scenes/thin-plates.toml 40
+                     --set "coupling.scheme=\"explicit\"")
+brisance_same_digest(thin-shell-viscous ${scenes}/thin-shell.toml 12 --set fluid.viscosity.dynamic_viscosity=2e-3
+                     --set coupling.cut_cells.wall.temperature=0.002)
+brisance_same_digest(thin-shell-density ${scenes}/thin-shell.toml 12 --set "coupling.cut_cells.profile=\"density\""
+                     --set "coupling.cut_cells.small_cells=\"redistribution\"")
 brisance_same_digest(held-wall ${PROJECT_SOURCE_DIR}/tests/support/scenes/held-wall.toml 80)
 brisance_same_digest(bursting-shell ${scenes}/bursting-shell.toml 80)
 brisance_same_digest(colliding-fragments ${scenes}/colliding-fragments.toml 330)

@@ -4,6 +4,7 @@
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/cut_cells.hpp"
+#include "coupling/cut_cells/openings.hpp"
 
 namespace brisance::coupling {
 
@@ -177,7 +178,7 @@ void CutCells::update_contents(Real dt) {
     charge(sweep_part(d));
   }
   if (viscous_) {
-    pass_friction();
+    pass_friction(dt);
     charge(Part::diffusion);
   }
   pass_exchange(dt);
@@ -215,8 +216,11 @@ void CutCells::pass_fluxes(int d, Real dt) {
     for (int side = 0; side < 2; ++side) {
       Real const share = side == 0 ? dt : -dt;
       if (divided_ && affected(contents_[n].cell)) {
-        for_face(cell, static_cast<std::size_t>(contents_[n].unit), d, side, dt,
-                 [&](Real area, State const& flux) { add(amount, share * area, flux); });
+        CellIndex const low = side == 0 ? beside(cell, d, -1) : cell;
+        for_face(cell, static_cast<std::size_t>(contents_[n].unit), d, side,
+                 [&](Real area, std::size_t low_unit, std::size_t high_unit) {
+                   add(amount, share * area, opening_flux(low, d, low_unit, high_unit, cell, dt));
+                 });
         continue;
       }
       if (linear_) add(amount, share, profile_flux(cell, d, side, dt));
@@ -234,7 +238,9 @@ void CutCells::pass_fluxes(int d, Real dt) {
     for (SideFace const& face : faces) {
       if (divided_ && affected(flow_.grid().cell_id(face.cell))) {
         for (std::size_t unit = 0; unit < parts_.units(face.cell); ++unit)
-          for_face(face.cell, unit, d, side, dt, [&](Real open, State const& flux) {
+          for_face(face.cell, unit, d, side, [&](Real open, std::size_t low_unit, std::size_t high_unit) {
+            CellIndex const low = side == 0 ? beside(face.cell, d, -1) : face.cell;
+            State const flux = opening_flux(low, d, low_unit, high_unit, face.cell, dt);
             add(sum, share * open, flux);
             impulse += dt * open * std::abs(flux[1 + dir]);
           });
@@ -253,12 +259,23 @@ void CutCells::pass_fluxes(int d, Real dt) {
   });
 }
 
-void CutCells::pass_friction() {
+void CutCells::pass_friction(Real dt) {
   for (int d = 0; d < flow_.grid().dimension; ++d) {
     auto const dir = static_cast<std::size_t>(d);
+    // Of a unit of an affected cell, opening by opening.
+    auto const pass_openings = [&](CellIndex cell, std::size_t unit, int side, State& to) {
+      CellIndex const low = side == 0 ? beside(cell, d, -1) : cell;
+      for_face(cell, unit, d, side, [&](Real area, std::size_t low_unit, std::size_t high_unit) {
+        add_viscous(to, (side == 0 ? -1 : 1) * area, opening_stress(low, d, low_unit, high_unit, cell, dt));
+      });
+    };
     for (std::size_t n = 0; n < contents_.size(); ++n) {
       auto const [wall, local] = wall_block_of(balanced_[n]);
       for (int side = 0; side < 2; ++side) {
+        if (divided_ && affected(contents_[n].cell)) {
+          pass_openings(balanced_[n], static_cast<std::size_t>(contents_[n].unit), side, contents_[n].amount);
+          continue;
+        }
         Real const aperture = next_.aperture(balanced_[n], d, side);
         if (aperture == 0) continue;
         CellIndex face = local;
@@ -270,8 +287,11 @@ void CutCells::pass_friction() {
     for_faces_of_sides(d, [&](WallBlock const& wall, int side, std::span<SideFace const> faces) {
       State sum{};
       for (SideFace const& face : faces)
-        if (Real const area = next_.aperture(face.cell, d, side); area != 0)
+        if (divided_ && affected(flow_.grid().cell_id(face.cell))) {
+          for (std::size_t unit = 0; unit < parts_.units(face.cell); ++unit) pass_openings(face.cell, unit, side, sum);
+        } else if (Real const area = next_.aperture(face.cell, d, side); area != 0) {
           add_viscous(sum, (side == 0 ? -1 : 1) * area, wall.viscous[dir][face.at]);
+        }
       for (std::size_t q = 0; q < 5; ++q) crossed_[q].add(sum[q]);
       exchanged_energy_.add(std::abs(sum[4]));
     });
@@ -284,7 +304,7 @@ void CutCells::pass_exchange(Real dt) {
     if (cut_index < 0) continue;
     CutCell const& cut = next_.cut(cut_index);
     if (scheme_ == TimeCoupling::explicit_load)
-      exchange_of_start(cut, dt, contents_[n].amount);
+      exchange_of_start(cut, static_cast<std::size_t>(contents_[n].unit), dt, contents_[n].amount);
     else
       exchange_at_end(cut, static_cast<std::size_t>(contents_[n].unit), dt, contents_[n].amount);
   }
@@ -355,8 +375,9 @@ void CutCells::take_part(Index triangle, TrianglePart const& part, StartExchange
   amount[4] -= dt * part.share * share.beyond_power;
 }
 
-void CutCells::exchange_of_start(CutCell const& cut, Real dt, State& amount) {
+void CutCells::exchange_of_start(CutCell const& cut, std::size_t unit, Real dt, State& amount) {
   for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
+    if (divided_ && parts_.unit_of(f) != unit) continue;
     Piece const& piece = next_.geometry.pieces[static_cast<std::size_t>(f)];
     at_start_.for_parts(record_, next_, piece, [&](TrianglePart const& part, StartExchange::Share const& share, auto&) {
       take_part(piece.triangle, part, share, dt, amount);

@@ -31,7 +31,6 @@ CutCells::CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flo
     r->set_grid(flow.grid());
     r->set_region(region);
   }
-  record_.divides = next_.divides = divides_cells(config, scheme);
   sweeper_.ambient = ambient;
   if (config.load == "relative") surface_.beyond_loads = ambient_pressure_.emplace(flow.gas().pressure(ambient));
   flow.set_sweeper(&sweeper_);
@@ -90,7 +89,7 @@ fluid::ViscousWalls& CutCells::add_viscosity(fluid::Transport const& transport) 
                 "coupling.cut_cells.profile = \"" + config_.profile +
                     "\" does not go together with fluid.viscosity: friction at the walls is taken from full "
                     "cells beside cut cells of constant state; leave it \"constant\"");
-  record_.divides = next_.divides = false;  // friction is taken from one state of a cell
+  sweeper_.expect_viscosity();
   viscous_ = std::make_unique<ViscousWall>(config_.wall.value_or(BodyWallConfig{}), transport, flow_, sweeper_, comm_);
   return *viscous_;
 }
@@ -159,7 +158,6 @@ void CutCells::join(Plan& plan) {
     std::vector<double> rows;
     for (Content const& k : kept_) ids.push_back(k.cell), rows.insert(rows.end(), k.amount.begin(), k.amount.end());
     file.sparse("coupling/covered", 5, ids, rows);
-    if (!record_.divides) return;
     ids.clear(), rows.clear();
     for (Content const& m : minor_) {
       ids.push_back(m.cell * static_cast<GlobalId>(most_parts) + m.unit);
@@ -182,17 +180,15 @@ void CutCells::join(Plan& plan) {
     }
     std::sort(kept_.begin(), kept_.end(), [](auto const& a, auto const& b) { return a.cell < b.cell; });
     minor_.clear();
-    if (record_.divides) {
-      parallel::ArchiveReader::Sparse const parts = file.sparse("coupling/parts", 5);
-      for (std::size_t s = 0; s < parts.ids.size(); ++s) {
-        GlobalId const id = parts.ids[s] / static_cast<GlobalId>(most_parts);
-        if (!owned(cell_from_id(flow_.grid(), id))) continue;
-        Content m{id, {}, static_cast<Index>(parts.ids[s] % static_cast<GlobalId>(most_parts))};
-        std::copy_n(parts.data.begin() + static_cast<std::ptrdiff_t>(5 * s), 5, m.amount.begin());
-        minor_.push_back(m);
-      }
-      std::sort(minor_.begin(), minor_.end());
+    parallel::ArchiveReader::Sparse const parts = file.sparse("coupling/parts", 5);
+    for (std::size_t s = 0; s < parts.ids.size(); ++s) {
+      GlobalId const id = parts.ids[s] / static_cast<GlobalId>(most_parts);
+      if (!owned(cell_from_id(flow_.grid(), id))) continue;
+      Content m{id, {}, static_cast<Index>(parts.ids[s] % static_cast<GlobalId>(most_parts))};
+      std::copy_n(parts.data.begin() + static_cast<std::ptrdiff_t>(5 * s), 5, m.amount.begin());
+      minor_.push_back(m);
     }
+    std::sort(minor_.begin(), minor_.end());
     surface_.send_triangles(record_.triangles);
     rebuild_record();
   };
@@ -227,10 +223,10 @@ void CutCells::new_geometry() {
     build_next();
   }
   if (divided_)
-    follow_parts();
+    follow_parts(next_);
   else
-    parts_.clear();
-  if (linear_) sweeper_.make_profiles(next_, !moved_);
+    parts_.clear(), affected_.clear();
+  if (linear_) sweeper_.make_profiles(next_, !moved_, affected_);
 }
 
 bool CutCells::build_next() {

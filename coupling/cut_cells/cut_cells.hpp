@@ -23,12 +23,6 @@
 
 namespace brisance::coupling {
 
-/// Whether cells that a thin wall divides have a state for every part of their gas: explicit loads, state
-/// redistribution and profiles know one state of a cell; so does viscosity, which forbids it by itself.
-inline bool divides_cells(CutCellsConfig const& config, TimeCoupling scheme) {
-  return scheme != TimeCoupling::explicit_load && config.small_cells == "merging" && config.profile == "constant";
-}
-
 class CutCells : public Effect {
  public:
   CutCells(CutCellsConfig const& config, TimeCoupling scheme, fluid::Flow& flow, solid::Solid& solid,
@@ -88,6 +82,8 @@ class CutCells : public Effect {
   bool load_solid(Clock const& clock);
   /// explicit: loads on the boundary at t^n.
   void load_at_start(Real dt);
+  /// Collective. Friction and heat of the pieces of record_ or next_.
+  void find_friction(WallRecord const& wall, bool moved);
   void end_drift(Clock const& clock);
   void update_contents(Real dt);
   void mix();
@@ -115,7 +111,7 @@ class CutCells : public Effect {
   void take_part(Index triangle, TrianglePart const& part, StartExchange::Share const& share, Real dt,
                  fluid::State& amount);
   void exchange_at_end(CutCell const& cut, std::size_t unit, Real dt, fluid::State& amount);
-  void exchange_of_start(CutCell const& cut, Real dt, fluid::State& amount);
+  void exchange_of_start(CutCell const& cut, std::size_t unit, Real dt, fluid::State& amount);
   /// Pressures of the sweeps in an owned cell, Pa.
   Vec3 swept_pressure(CellIndex c) const;
   /// What moves out of the domain with the wall leaves the account.
@@ -134,7 +130,7 @@ class CutCells : public Effect {
   /// The balance, a file's worth of steps: transfers, fluxes along an axis, friction, exchange with the wall.
   void pass_transfers(Real dt);
   void pass_fluxes(int d, Real dt);
-  void pass_friction();
+  void pass_friction(Real dt);
   void pass_exchange(Real dt);
   /// The block with walls that holds an owned cell, and the cell in it.
   std::pair<WallBlock const*, CellIndex> wall_block_of(CellIndex c) const;
@@ -162,8 +158,11 @@ class CutCells : public Effect {
   void rebuild_record(CellParts const* before_opening = nullptr);
   fluid::State content_before(CellIndex c, std::size_t unit) const;
   // cells that a thin wall divides (divided_cells.cpp)
-  /// Collective. Parts at t^n and t^{n+1} are matched, and their states known around the blocks of this rank.
-  void follow_parts();
+  /// Collective. Parts at t^n and those of `after`, next_ or the record itself, are matched, and their states known
+  /// around the blocks of this rank.
+  void follow_parts(WallRecord const& after);
+  /// Collective. Is a cell of any rank divided, at t^n or (`next`) t^{n+1}?
+  bool any_divided(bool next) const;
   /// The cells whose faces are exchanged part by part: `affected_`.
   void find_affected();
   bool affected(GlobalId cell) const { return std::binary_search(affected_.begin(), affected_.end(), cell); }
@@ -180,11 +179,14 @@ class CutCells : public Effect {
     CellUnits const* const u = parts_.find(c);
     return !u || u->before[unit] == 0;
   }
-  /// Flux through an opening of the high face of `low` between two units, and calls of visit(area, flux) for those of
-  /// a unit in a face of an owned cell.
+  /// Flux through an opening of the high face of `low` between two units, as the cell `at` beside it knows it.
   fluid::State opening_flux(CellIndex low, int d, std::size_t low_unit, std::size_t high_unit, CellIndex at, Real dt);
-  void for_face(CellIndex c, std::size_t unit, int d, int side, Real dt,
-                std::function<void(Real, fluid::State const&)> const& visit);
+  /// The same of friction and heat, over the step.
+  std::array<Real, 4> opening_stress(CellIndex low, int d, std::size_t low_unit, std::size_t high_unit, CellIndex at,
+                                     Real dt);
+  /// Calls visit(area, low unit, high unit) for the openings of a unit in a face of an owned cell.
+  void for_face(CellIndex c, std::size_t unit, int d, int side,
+                std::function<void(Real, std::size_t, std::size_t)> const& visit) const;
   /// State of a minor part in the initial fields.
   fluid::State start_state(CellIndex c, std::size_t part) const;
   /// Pressures on the pieces of a unit, Pa.

@@ -7,6 +7,7 @@
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/cut_cells.hpp"
+#include "coupling/cut_cells/openings.hpp"
 #include "coupling/geometry/clip.hpp"
 #include "fluid/flux/low_order.hpp"
 
@@ -20,28 +21,6 @@ namespace {
 /// Cells around the blocks of a rank within which it knows the states of parts.
 constexpr Index part_halo = 3;
 
-CellIndex beside(CellIndex c, int d, int by) {
-  c[static_cast<std::size_t>(d)] += by;
-  return c;
-}
-
-/// Calls visit(neighbour, its part, direction, area) for what a part of a cell opens to.
-template <class Visit>
-void for_openings(WallRecord const& record, CellIndex c, std::size_t part, Visit&& visit) {
-  for (int d = 0; d < record.lattice().dimension; ++d)
-    for (int side = 0; side < 2; ++side) {
-      CellIndex const other = beside(c, d, side == 0 ? -1 : 1), low = side == 0 ? other : c;
-      if (!record.parts.find(c) && !record.parts.find(other)) {
-        Real const area = record.aperture(c, d, side);
-        if (area > 0) visit(other, std::size_t{0}, d, area);
-        continue;
-      }
-      for (Opening const& o : record.parts.through(low, d))
-        if ((side == 0 ? o.high_part : o.low_part) == part)
-          visit(other, std::size_t{side == 0 ? o.low_part : o.high_part}, d, o.area);
-    }
-}
-
 State over(State u, Real volume) {
   for (Real& x : u) x /= volume;
   return u;
@@ -49,11 +28,11 @@ State over(State u, Real volume) {
 
 }  // namespace
 
-void CutCells::follow_parts() {
+void CutCells::follow_parts(WallRecord const& after) {
   fluid::Grid const& grid = flow_.grid();
   std::vector<CellBox> near;
   for (Block const& block : std::as_const(flow_).blocks()) near.push_back(grown(grid, box_of(block), mixing_halo + 1));
-  parts_.match(record_, next_, near, moved_);
+  parts_.match(record_, after, near, &after == &next_ && moved_);
   find_affected();
 
   std::vector<CellBox> halo;
@@ -78,6 +57,12 @@ void CutCells::follow_parts() {
   for (parallel::Message const& message : comm_.deliver(std::move(out)))
     for (std::span<std::byte const> in(message.data); !in.empty();) minor_near_.push_back(parallel::take<Content>(in));
   std::sort(minor_near_.begin(), minor_near_.end());
+}
+
+bool CutCells::any_divided(bool next) const {
+  std::int64_t divided = !record_.parts.empty() || (next && !next_.parts.empty());
+  comm_.sum(std::span(&divided, 1));
+  return divided > 0;
 }
 
 void CutCells::find_affected() {
@@ -170,18 +155,34 @@ State CutCells::opening_flux(CellIndex low, int d, std::size_t low_unit, std::si
                                flow_.gas());
 }
 
-void CutCells::for_face(CellIndex c, std::size_t unit, int d, int side, Real dt,
-                        std::function<void(Real, State const&)> const& visit) {
+std::array<Real, 4> CutCells::opening_stress(CellIndex low, int d, std::size_t low_unit, std::size_t high_unit,
+                                             CellIndex at, Real dt) {
+  fluid::Grid const& grid = flow_.grid();
+  CellIndex const high = beside(low, d, 1);
+  bool const inner = grid.inside(low) && grid.inside(high);
+  bool const low_main = !grid.inside(low) || main_before(low, low_unit);
+  bool const high_main = !grid.inside(high) || main_before(high, high_unit);
+  // What stands in the faces of the block has felt the stages of the step; between gases that the step joins it is 0.
+  if (low_main && high_main) {
+    auto const [wall, local] = wall_block_of(at);
+    CellIndex const face = at == low ? beside(local, d, 1) : local;
+    return wall->viscous[static_cast<std::size_t>(d)][wall->face(d, face[0], face[1], face[2])];
+  }
+  if (!inner) return {};
+  return viscous_->between(state_before(low, low_unit), state_before(high, high_unit), d, dt);
+}
+
+void CutCells::for_face(CellIndex c, std::size_t unit, int d, int side,
+                        std::function<void(Real, std::size_t, std::size_t)> const& visit) const {
   if (CellUnits const* const u = parts_.find(c); u && unit >= u->after) return;
   CellIndex const other = beside(c, d, side == 0 ? -1 : 1), low = side == 0 ? other : c;
   if (!next_.parts.find(c) && !next_.parts.find(other)) {
     Real const area = next_.aperture(c, d, side);
-    if (area != 0) visit(area, opening_flux(low, d, 0, 0, c, dt));
+    if (area != 0) visit(area, 0, 0);
     return;
   }
   for (Opening const& o : next_.parts.through(low, d))
-    if ((side == 0 ? o.high_part : o.low_part) == unit)
-      visit(o.area, opening_flux(low, d, o.low_part, o.high_part, c, dt));
+    if ((side == 0 ? o.high_part : o.low_part) == unit) visit(o.area, o.low_part, o.high_part);
 }
 
 Vec3 CutCells::unit_pressure(CellIndex c, std::size_t unit) const {
@@ -238,9 +239,7 @@ State CutCells::start_state(CellIndex c, std::size_t part) const {
 void CutCells::start_parts() {
   fluid::Grid const& grid = flow_.grid();
   minor_.clear();
-  std::int64_t divided = !record_.parts.empty();
-  comm_.sum(std::span(&divided, 1));
-  divided_ = divided > 0;
+  divided_ = any_divided(false);
   if (!divided_) return;
   std::vector<CellBox> near;
   for (Block const& block : std::as_const(flow_).blocks()) near.push_back(grown(grid, box_of(block), mixing_halo + 1));
@@ -317,7 +316,6 @@ void CutCells::for_parts(std::function<void(CellIndex, Vec3 const&, State const&
 }
 
 void CutCells::keep_parts(CellParts const& old) {
-  if (!record_.divides) return;
   fluid::Grid const& grid = flow_.grid();
   std::vector<CellIndex> cells;
   for (CellParts const* parts : {&old, &std::as_const(record_.parts)})

@@ -37,6 +37,11 @@ void CutCells::spread(std::vector<NearCell> const& cells) {
     if (g.members.empty()) g.centre = grid.centre(cell.cell);
     g.members.push_back(static_cast<Index>(n));
   }
+  // Beside a wall that divides cells the mean stays.
+  std::erase_if(groups, [&](Group const& g) {
+    return std::any_of(g.members.begin(), g.members.end(),
+                       [&](Index m) { return cells[static_cast<std::size_t>(m)].linked; });
+  });
   std::vector<std::pair<GlobalId, Moments>> regions;  // of the groups of cells of this rank, about the cell's centre
   std::vector<GlobalId> wanted;
   for (Group& group : groups) {

@@ -13,6 +13,10 @@ State CutCells::profile_flux(CellIndex c, int d, int side, Real dt) const {
   auto const dir = static_cast<std::size_t>(d);
   CellIndex low = c, high = c;
   (side == 0 ? low : high)[dir] += side == 0 ? -1 : 1;
+  // Cells that exchange part by part have no profiles.
+  if (divided_)
+    for (CellIndex const& cell : {low, high})
+      if (grid.inside(cell) && affected(grid.cell_id(cell))) return {};
   // Through a side of the domain goes what the law of the side says, but for the gas that slides out along the wall.
   bool const inner = grid.inside(low) && grid.inside(high);
   if (!inner && (grid.periodic[dir] || flow_.reflecting(d, side))) return {};

@@ -83,13 +83,14 @@ class Redistributor {
     of_.assign(cells_.size(), -1);
     for (Index i = 0; i < static_cast<Index>(cells_.size()); ++i) {
       NearCell const& c = cells_[at(i)];
-      if (c.volume >= small_ || !sound(i) || near_.drains(c)) continue;
+      // Parts of cells are merged with what they open to, and so are their small neighbours.
+      if (c.volume >= small_ || c.linked || !sound(i) || near_.drains(c)) continue;
       Neighbourhood n;
       n.members.push_back(i);
       Real volume = c.volume;
       while (volume < small_ && n.members.size() < most_members) {
         Index const j = near_.target(i, n.members);
-        if (j < 0 || !sound(j)) break;
+        if (j < 0 || cells_[at(j)].linked || !sound(j)) break;
         n.members.push_back(j);
         volume += cells_[at(j)].volume;
       }

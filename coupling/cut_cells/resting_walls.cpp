@@ -194,7 +194,7 @@ std::vector<GlobalId> WallRecord::resting_beside(Geometry const& moving) const {
 
 void WallRecord::rebuild() {
   cut_all();
-  if (divides) divide(lattice_, geometry, covered_fraction * cell_volume_, parts);
+  divide(lattice_, geometry, covered_fraction * cell_volume_, parts);
 }
 
 void WallRecord::cut_all() {

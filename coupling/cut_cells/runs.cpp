@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "coupling/cut_cells/cell_geometry.hpp"
+#include "coupling/cut_cells/openings.hpp"
 #include "coupling/cut_cells/wall_sweeper.hpp"
 
 namespace brisance::coupling {
@@ -209,18 +210,13 @@ void WallSweeper::find_runs(Block const& block, WallBlock& wall, int direction) 
         if (g[d] < 0 || g[d] >= grid.cells[d]) g = into_domain(grid, g);
         return record_->solid(g);
       };
-      auto const parted = [&](Index i) {
-        if (two_sides(global(i), direction)) return true;
-        return !record_->parts.empty() && grid.inside(global(i)) && grid.inside(global(i + 1)) &&
-               !record_->parts.joined(global(i), direction);
-      };
       Index i = -ghost;
       while (i < n + ghost) {
         while (i < n + ghost && is_solid(i)) ++i;
         if (i == n + ghost) break;
         WallBlock::Run run{i, i, {a, b}};
         do ++i;
-        while (i < n + ghost && !is_solid(i) && !parted(i - 1));
+        while (i < n + ghost && !is_solid(i) && !parted(global(i - 1), direction));
         run.end = i;
         if (i < n + ghost && i >= 0 && i <= n && !is_solid(i)) {
           CellIndex face{};
@@ -270,8 +266,21 @@ void WallSweeper::renew(Block const& block) {
   WallBlock& wall = blocks_[block.id()];
   wall.size = block.size();
   wall.images.clear();
-  for (int d = 0; d < grid.dimension; ++d) find_runs(block, wall, d);
+  wall.beside_parted.clear();
+  for (int d = 0; d < grid.dimension; ++d) {
+    find_runs(block, wall, d);
+    CellIndex const first = block.first();
+    auto const dir = static_cast<std::size_t>(d);
+    for (CellIndex const& high : wall.parted[dir]) {
+      CellIndex const low = beside(high, d, -1);
+      if (!two_gases({first[0] + low[0], first[1] + low[1], first[2] + low[2]}, d)) continue;
+      for (CellIndex const& c : {low, high})
+        if (c[dir] >= 0 && c[dir] < wall.size[dir]) wall.beside_parted.push_back(wall.cell(c[0], c[1], c[2]));
+    }
+  }
+  std::sort(wall.beside_parted.begin(), wall.beside_parted.end());
   find_solid(block, wall);
+  if (viscous_) find_apart(block, wall);
 }
 
 void WallSweeper::rebuild(WallRecord const& record) {
@@ -310,6 +319,8 @@ void WallSweeper::gather_images() {
   list.erase(std::unique(list.begin(), list.end()), list.end());
   image_cells_ = list;
   images_.plan(comm_, flow_, std::move(list));
+  any_parted_ =
+      std::any_of(blocks_.begin(), blocks_.end(), [](auto const& b) { return !b.second.beside_parted.empty(); });
   profiled_ = false;
   profiles_.clear();
   image_slopes_.clear();

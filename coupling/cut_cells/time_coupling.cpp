@@ -32,9 +32,16 @@ void CutCells::begin_step(Clock const& clock) {
   }
 }
 
+void CutCells::find_friction(WallRecord const& wall, bool moved) {
+  viscous_->find(record_, wall, moved, [this](CutCell const& cut, Index piece) {
+    std::size_t const unit = divided_ && parts_.find(cut.cell) ? parts_.unit_of(piece) : 0;
+    return main_before(cut.cell, unit) ? viscous_->state(cut.cell) : state_before(cut.cell, unit);
+  });
+}
+
 bool CutCells::load_solid(Clock const& clock) {
   std::vector<CellForce> forces;
-  if (viscous_) viscous_->find(record_, next_, moved_);
+  if (viscous_) find_friction(next_, moved_);
   wall_pressure(next_, false, clock.dt, forces);
   surface_.apply(forces, moved_ ? LoadOf::end : LoadOf::present);
   solid_.restore(solid_before_);
@@ -63,7 +70,12 @@ void CutCells::load_at_start(Real dt) {
   std::vector<CellForce> forces;
   // The half-Riemann factor brakes the wall: with the velocity of the step before it would push what vibrates fast.
   surface_.send_velocities(record_.triangles);
-  if (viscous_) viscous_->find(record_, record_, true);
+  divided_ = any_divided(false);
+  if (divided_)
+    follow_parts(record_);
+  else
+    parts_.clear(), affected_.clear();
+  if (viscous_) find_friction(record_, true);
   at_start_.begin(record_);
   wall_pressure(record_, false, dt, forces);
   at_start_.exchange(record_, flow_, comm_);

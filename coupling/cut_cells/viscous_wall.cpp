@@ -6,6 +6,7 @@
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/wall_profile.hpp"
+#include "fluid/diffusion/single_face.hpp"
 
 namespace brisance::coupling {
 
@@ -60,7 +61,8 @@ void ViscousWall::prepare() {
   });
 }
 
-void ViscousWall::Sink::add(int direction, Index j, Index k, Index faces, Real const* stress, std::ptrdiff_t pitch) {
+void ViscousWall::Sink::add(int direction, Index j, Index k, Index faces, Real* stress, std::ptrdiff_t pitch) {
+  thin->replace(direction, j, k, stress, pitch);
   auto& impulse = wall->viscous[static_cast<std::size_t>(direction)];
   for (Index i = 0; i < faces; ++i) {
     auto& face = impulse[wall->face(direction, i, j, k)];
@@ -71,6 +73,7 @@ void ViscousWall::Sink::add(int direction, Index j, Index k, Index faces, Real c
 fluid::FaceSink& ViscousWall::sink(Index block, Real weight) {
   sink_.wall = &sweeper_.blocks().at(block);
   sink_.weight = weight;
+  thin_.find(*std::as_const(flow_).find(block), *sink_.wall);
   return sink_;
 }
 
@@ -88,7 +91,7 @@ State ViscousWall::state(CellIndex c) const {
   return around_[around_.slot(grid.cell_id(c))];
 }
 
-void ViscousWall::find(WallRecord const& now, WallRecord const& next, bool moved) {
+void ViscousWall::find(WallRecord const& now, WallRecord const& next, bool moved, OwnState const& own) {
   fluid::Grid const& grid = flow_.grid();
   auto const owned = [&](CellIndex c) { return grid.inside(c) && flow_.owner(grid.block_of(c)) == comm_.rank(); };
   if (moved || !planned_) {
@@ -107,16 +110,29 @@ void ViscousWall::find(WallRecord const& now, WallRecord const& next, bool moved
   found_.assign(next.geometry.pieces.size(), {});
   for (CutCell const& cut : next.geometry.cells) {
     if (!owned(cut.cell)) continue;
-    for (Index f = cut.first_piece; f < cut.last_piece; ++f)
-      found_[static_cast<std::size_t>(f)] = friction(now, next, cut, next.geometry.pieces[static_cast<std::size_t>(f)]);
+    bool const look = GasBeside::possible(next, cut, reach);
+    PartedCell const* const parts = next.parts.find(cut.cell);
+    std::size_t around = most_parts;  // the part whose gas was looked for
+    for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
+      std::size_t const part = parts ? next.parts.part_of(*parts, f) : 0;
+      if (look && part != around) gas_.find(next, cut.cell, part, reach), around = part;
+      found_[static_cast<std::size_t>(f)] = friction(now, next, cut, f, look ? &gas_ : nullptr, own);
+    }
   }
 }
 
-PieceFriction ViscousWall::friction(WallRecord const& now, WallRecord const& next, CutCell const& cut,
-                                    Piece const& piece) const {
+std::array<Real, 4> ViscousWall::between(State const& low, State const& high, int direction, Real dt) const {
+  std::array<Real, 4> flux = fluid::viscous_flux(transport_, flow_.grid(), direction, low, high);
+  for (Real& f : flux) f *= dt;
+  return flux;
+}
+
+PieceFriction ViscousWall::friction(WallRecord const& now, WallRecord const& next, CutCell const& cut, Index place,
+                                    GasBeside const* gas_around, OwnState const& own) const {
   if (config_.slip && !config_.temperature) return {};
   fluid::Grid const& grid = flow_.grid();
   fluid::Gas const& gas = transport_.gas;
+  Piece const& piece = next.geometry.pieces[static_cast<std::size_t>(place)];
   Real const h = smallest_spacing(grid), area = norm(piece.area);
   Vec3 const n = piece.area / area;
   Vec3 const wall_velocity = next.wall_velocity(piece.triangle, piece.bary_centroid);
@@ -124,8 +140,7 @@ PieceFriction ViscousWall::friction(WallRecord const& now, WallRecord const& nex
       surface_gradient(next.triangles[static_cast<std::size_t>(piece.triangle)], grid.dimension);
   WallProfile profile(n, h, grid.dimension);
   Real temperatures = 0, weights = 0;
-  auto const consider = [&](CellIndex c, Real least_distance) {
-    State const u = state(c);
+  auto const consider = [&](CellIndex c, State const& u, Real least_distance) {
     if (gas.vacuum(u)) return;
     Vec3 const offset = grid.centre(c) - piece.centroid;
     Real const d = max(dot(offset, n), least_distance);
@@ -138,10 +153,11 @@ PieceFriction ViscousWall::friction(WallRecord const& now, WallRecord const& nex
   };
   for_neighbourhood(grid, cut.cell, reach, [&](CellIndex c) {
     if (!grid.inside(c) || now.solid(c) || next.solid(c) || now.cut_index(c) >= 0 || next.cut_index(c) >= 0) return;
-    if (dot(grid.centre(c) - piece.centroid, n) > 0.25 * h) consider(c, 0);
+    if (gas_around && !gas_around->holds(c)) return;
+    if (dot(grid.centre(c) - piece.centroid, n) > 0.25 * h) consider(c, state(c), 0);
   });
   // Walls so near to each other that no full cell lies between them: what the cell itself holds.
-  if (weights == 0 && !next.solid(cut.cell)) consider(cut.cell, 0.5 * h);
+  if (weights == 0 && !next.solid(cut.cell)) consider(cut.cell, own(cut, place), 0.5 * h);
   if (weights == 0) return {};
 
   auto const slope = profile.slopes();

@@ -42,9 +42,8 @@ class WallRecord {
   /// Triangles of the record, sorted by id; `x_new` is the position at the time of the record.
   std::vector<SurfaceTriangle> triangles;
   Geometry geometry;
-  /// Parts of cells that thin walls divide; empty unless `divides`.
+  /// Parts of cells that thin walls divide.
   CellParts parts;
-  bool divides = false;
 
   /// Cuts the cells by `triangles`. Closed surfaces whose vertices are where they were in the last call, and which no
   /// moving one is next to, keep their pieces and cells: these come first in `geometry`, sorted among themselves, and

@@ -32,7 +32,8 @@ bool sees(WallRecord const& record, CellIndex c, CellIndex to) {
     if (!(record.aperture(c, d, side) > seen * grid.face_area(d))) continue;
     CellIndex next = c;
     next[dir] += side == 0 ? -1 : 1;
-    if (!record.solid(next) && sees(record, next, to)) return true;
+    if (record.solid(next) || record.parts.find(next)) continue;  // a divided cell has another gas behind it
+    if (sees(record, next, to)) return true;
   }
   return false;
 }
@@ -82,11 +83,12 @@ void WallSlopes::plan(parallel::Comm& comm, fluid::Flow& flow, WallRecord const&
     Cell& p = cells_[n];
     p.first = p.last = static_cast<Index>(neighbours_.size());
     CellIndex source = c;
+    if (record.parts.find(c)) continue;
     if (record.solid(c)) {
       // What is about to open: the profile of the nearest fluid.
       Real nearest = -1;
       for_neighbourhood(grid, c, 1, [&](CellIndex m) {
-        if (!grid.inside(m) || record.solid(m)) return;
+        if (!grid.inside(m) || record.solid(m) || record.parts.find(m)) return;
         Real const r2 = norm2(grid.centre(m) + region(m).mean - grid.centre(c));
         if (nearest < 0 || r2 < nearest) nearest = r2, source = m;
       });

@@ -111,7 +111,7 @@ void WallSweeper::begin_step() {
   }
 }
 
-void WallSweeper::make_profiles(WallRecord const& next, bool same) {
+void WallSweeper::make_profiles(WallRecord const& next, bool same, std::span<GlobalId const> plain) {
   fluid::Grid const& grid = flow_.grid();
   if (!same || !profiles_.planned()) {
     std::vector<CellBox> near;
@@ -119,7 +119,7 @@ void WallSweeper::make_profiles(WallRecord const& next, bool same) {
     std::vector<GlobalId> cells;
     for (WallRecord const* r : {record_, &next})
       for (CutCell const& cut : r->geometry.cells)
-        if (grid.inside(cut.cell) &&
+        if (grid.inside(cut.cell) && !std::binary_search(plain.begin(), plain.end(), grid.cell_id(cut.cell)) &&
             std::any_of(near.begin(), near.end(), [&](CellBox const& b) { return b.holds(cut.cell); }))
           cells.push_back(grid.cell_id(cut.cell));
     std::sort(cells.begin(), cells.end());
@@ -165,7 +165,10 @@ void WallSweeper::prepare(int direction, Real dt) {
 
 bool WallSweeper::is_fluid(Block const& block, Index i, Index j, Index k) const {
   CellIndex const first = block.first();
-  return !record_->solid({first[0] + i, first[1] + j, first[2] + k});
+  if (record_->solid({first[0] + i, first[1] + j, first[2] + k})) return false;
+  if (!any_parted_) return true;
+  WallBlock const& wall = blocks_.at(block.id());
+  return !std::binary_search(wall.beside_parted.begin(), wall.beside_parted.end(), wall.cell(i, j, k));
 }
 
 void WallSweeper::calm(Block const& block, WallBlock::Run const& run, int direction, Index longest, std::size_t lane) {

@@ -4,6 +4,7 @@
 #pragma once
 #include <map>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "coupling/cut_cells/state_gather.hpp"
@@ -24,6 +25,21 @@ struct MirrorCell {
 };
 /// State of the image with its velocity reflected at the moving wall.
 fluid::State reflect(fluid::State u, MirrorCell const& mirror);
+
+/// The far side of a face of a cell is not its gas, though no solid cell with a mirror state of this gas lies there: a
+/// wall of less than two cells.
+struct ApartFace {
+  CellIndex cell{};  ///< local, also in the first layer of ghosts
+  int direction = 0, side = 0;
+  bool solid = false;   ///< the cell beyond holds no gas at all
+  bool mirrors = true;  ///< the wall in between was found
+  Vec3 normal;          ///< unit
+  Vec3 wall_velocity;   ///< m/s
+  friend bool operator<(ApartFace const& a, ApartFace const& b) {
+    return std::tie(a.cell[2], a.cell[1], a.cell[0], a.direction, a.side) <
+           std::tie(b.cell[2], b.cell[1], b.cell[0], b.direction, b.side);
+  }
+};
 
 /// What the sweeps of one block leave for the balance: the state before the step, and per direction the final flux of
 /// every face and the pressure contained in it.
@@ -55,8 +71,10 @@ struct WallBlock {
   std::array<std::vector<Run>, 3> runs;  ///< longest first
   std::array<std::vector<RunEnd>, 3> ends;
   std::array<std::vector<CellIndex>, 3> parted;         ///< local cells above closed faces between two fluid cells
+  std::vector<std::size_t> beside_parted;               ///< cells of the block beside those between two gases, sorted
   std::vector<std::pair<CellIndex, MirrorCell>> solid;  ///< local cells with their general mirror states, sorted by id
   std::vector<GlobalId> images;                         ///< of all mirror cells of the block
+  std::vector<ApartFace> apart;                         ///< sorted; empty without viscosity
   /// How the general mirror state of a local solid cell was made; null far from walls.
   MirrorCell const* mirror_at(CellIndex const& local) const;
 };
@@ -67,6 +85,9 @@ class WallSweeper : public fluid::BlockSweeper {
   WallSweeper(fluid::Flow& flow, WallRecord const& next, parallel::Comm& comm)
       : flow_(flow), comm_(comm), next_(next) {}
 
+  /// Blocks keep their faces in thin walls, which viscous terms must not look through. To be called before the first
+  /// rebuild.
+  void expect_viscosity() { viscous_ = true; }
   /// Collective. New runs, mirrors and images for the geometry of `record`; then the general mirror states are set.
   void rebuild(WallRecord const& record);
   /// Collective. The same for a record that differs from the last one in `changed` only: blocks out of reach of it keep
@@ -83,7 +104,8 @@ class WallSweeper : public fluid::BlockSweeper {
   /// Collective, after begin_step. Linear profiles at t^n in the cells cut now or after the step (`next`; `same`: it is
   /// the present geometry). Until the next step the cells cut now hold the value of their profile at their centre, and
   /// mirror states are taken at the image itself: the sweeps see a smooth flow that goes on behind the wall.
-  void make_profiles(WallRecord const& next, bool same);
+  /// `plain`: cells that keep their mean whatever their neighbours hold, sorted by id.
+  void make_profiles(WallRecord const& next, bool same, std::span<GlobalId const> plain);
   WallSlopes const& profiles() const { return profiles_; }
   /// Is direction a swept before b in this step?
   bool swept_before(int a, int b) const {
@@ -93,6 +115,7 @@ class WallSweeper : public fluid::BlockSweeper {
   bool handles(Index block) const override { return blocks_.contains(block); }
   void prepare(int direction, Real dt) override;
   fluid::SweepReport sweep(fluid::Block& block, int direction, Real dt) override;
+  /// The pressures of two cells on both sides of a wall thinner than two cells are no shock: neither counts.
   bool is_fluid(fluid::Block const& block, Index i, Index j, Index k) const override;
 
   std::map<Index, WallBlock>& blocks() { return blocks_; }
@@ -106,7 +129,26 @@ class WallSweeper : public fluid::BlockSweeper {
   void gather_images();
   /// Fluid cells that the closed face above `low` parts: the wall between them is thinner than two cells.
   bool two_sides(CellIndex low, int direction) const;
+  /// Is the high face of a fluid cell a wall between its gas and that of the next fluid cell?
+  bool parted(CellIndex const& low, int direction) const {
+    CellIndex high = low;
+    ++high[static_cast<std::size_t>(direction)];
+    if (two_sides(low, direction)) return true;
+    return !record_->parts.empty() && flow_.grid().inside(low) && flow_.grid().inside(high) &&
+           !record_->parts.joined(low, direction);
+  }
   void find_runs(fluid::Block const& block, WallBlock& wall, int direction);
+  void find_apart(fluid::Block const& block, WallBlock& wall);
+  /// Does the general mirror state of a solid cell, in a block or beside it, stand for another gas than that of its
+  /// neighbour?
+  bool mirrors_another(CellIndex const& solid, CellIndex const& gas, fluid::Block const& block, WallBlock const& wall);
+  /// Does a face that is parted have different gases on its sides, as far as the next cells tell?
+  bool two_gases(CellIndex const& low, int direction);
+  /// Does the gas come from one cell to another that is not far away?
+  bool one_gas(CellIndex const& a, CellIndex const& b);
+  /// Does the stencil of the face between a gas and a solid cell across `direction` see another gas there?
+  bool solid_shows_another(CellIndex const& solid, CellIndex const& gas, int direction, fluid::Block const& block,
+                           WallBlock const& wall);
   /// Is the gas of a cell (of its largest part) one with that beyond its low (0) or high (1) face?
   bool passes(CellIndex const& c, int direction, int side) const;
   /// Does it come from one cell to another along the axes, one after the other?
@@ -148,6 +190,8 @@ class WallSweeper : public fluid::BlockSweeper {
   parallel::Comm& comm_;
   WallRecord const* record_ = nullptr;
   WallRecord const& next_;
+  bool viscous_ = false;
+  bool any_parted_ = false;  ///< faces in the blocks of this rank
   std::map<Index, WallBlock> blocks_;
   StateGather images_;
   std::vector<GlobalId> image_cells_;   ///< by slot

@@ -15,10 +15,10 @@ enum class DiffusionStage { euler, heun_first, heun_second };
 
 /// Receives the viscous fluxes of a block: stress on momentum (columns 0 to 2, `pitch` apart) and energy flux (3), per
 /// area and time, as they are subtracted from the flux along +direction. Called once for each row of faces along x;
-/// face i is on the low side of cell (i, j, k).
+/// face i is on the low side of cell (i, j, k). The cells take what it leaves in `stress`.
 struct FaceSink {
   virtual ~FaceSink() = default;
-  virtual void add(int direction, Index j, Index k, Index faces, Real const* stress, std::ptrdiff_t pitch) = 0;
+  virtual void add(int direction, Index j, Index k, Index faces, Real* stress, std::ptrdiff_t pitch) = 0;
 };
 
 class BlockStage {
@@ -28,8 +28,9 @@ class BlockStage {
   /// Advances the cells of a block whose ghosts of width 1, edges included, are complete. `before`: four values a cell
   /// that last from heun_first to heun_second. `sides`: which ends of the block (x low, x high, y low, ...) to sum;
   /// `through`: sums over their faces of the flux along +direction, per area and time (mass 0), in a fixed order.
-  /// `sink`: null, or gets all fluxes. Returns the number of cells that a finished step (euler, heun_second) left
-  /// outside the admissible set with the bands of theory/fluid.md 4.4.
+  /// `sink`: null, or gets all fluxes, and may change them after those of `through` were summed. Returns the number of
+  /// cells that a finished step (euler, heun_second) left outside the admissible set with the bands of
+  /// theory/fluid.md 4.4.
   std::int64_t run(Block& block, Real tau, DiffusionStage stage, std::span<Real> before,
                    std::array<bool, 6> const& sides, std::array<State, 6>& through, FaceSink* sink = nullptr);
 

@@ -141,7 +141,9 @@ void Viscosity::stage(Real tau, DiffusionStage stage, Real weight) {
     std::array<State, 6> through{};
     std::span<Real> const before = before_.empty() ? std::span<Real>() : std::span<Real>(before_[b]);
     FaceSink* const sink = walls_ && walls_->handles(block.id()) ? &walls_->sink(block.id(), weight) : nullptr;
-    if (block_stage_.run(block, tau, stage, before, sides, through, sink) > 0) locate(block);
+    std::int64_t const inadmissible = block_stage_.run(block, tau, stage, before, sides, through, sink);
+    if (sink) walls_->finish(block, stage == DiffusionStage::heun_second ? 0.5 * tau : tau);
+    if (inadmissible > 0) locate(block);
     if (sink) continue;
     for (int s = 0; s < 6; ++s)
       if (sides[static_cast<std::size_t>(s)])

@@ -24,9 +24,11 @@ struct ViscousWalls {
   virtual bool handles(Index block) const = 0;
   /// Collective. Sets the mirror states of solid cells, before the ghosts of each stage are filled.
   virtual void prepare() = 0;
-  /// Receives the fluxes of one stage of a block that it handles, which count for `weight` s. What crosses sides of the
-  /// domain there is its own affair.
+  /// Receives the fluxes of one stage of a block that it handles, which count for `weight` s; its cells and ghosts are
+  /// those the stage starts from. What crosses sides of the domain there is its own affair.
   virtual FaceSink& sink(Index block, Real weight) = 0;
+  /// After that stage of that block: what only one cell of a face feels, over `time` s.
+  virtual void finish(Block& block, Real time) = 0;
 };
 
 /// Beside cut cells V is not sub-cycled and keeps this share of its limit (fluid/README.md).

@@ -50,7 +50,8 @@ Vec3 const centre{0.013, 0.007, 0};
 enum class Ring { held, breathing, drifting };
 
 /// A ring of 0.9 m across, oblique to the grid all around, with ten times the pressure inside: 20 ms are 10 crossings.
-std::string ring(Real cells_thick, Ring kind) {
+/// `options`: of coupling.cut_cells.
+std::string ring(Real cells_thick, Ring kind, std::string const& options) {
   return "end_time = \"20 ms\"\n[fluid]\nlow = [\"-1 m\", \"-1 m\"]\nhigh = [\"1 m\", \"1 m\"]\ncells = [50, 50]\n"
          "ambient = { density = \"1.2 kg/m3\", pressure = \"101325 Pa\" }\neuler = { order = 5, cfl = 0.5 }\n"
          "[[fluid.region]]\nshape = \"ball\"\ncentre = [\"0.013 m\", \"0.007 m\"]\nradius = \"0.45 m\"\n"
@@ -66,11 +67,11 @@ std::string ring(Real cells_thick, Ring kind) {
          (kind == Ring::drifting
               ? "velocity = [\"13 m/s\", \"7 m/s\", \"0 m/s\"]\nspin = [\"0 rad/s\", \"0 rad/s\", \"20 rad/s\"]\n"
               : "") +
-         "[coupling]\ncut_cells = {}\n";
+         "[coupling]\ncut_cells = { " + options + " }\n";
 }
 
-void check_ring(Real cells_thick, Ring kind) {
-  CoupledCase c(ring(cells_thick, kind));
+void check_ring(Real cells_thick, Ring kind, std::string const& options = "", std::string const& scheme = "lag") {
+  CoupledCase c(ring(cells_thick, kind, options), {"coupling.scheme=\"" + scheme + "\""});
   Vec3 const drift = kind == Ring::drifting ? Vec3{13, 7, 0} : Vec3{};
   Real const before = mass_inside(c, centre, inner_radius + 0.4 * cells_thick * h);
   Real lost = 0;
@@ -88,7 +89,8 @@ void check_ring(Real cells_thick, Ring kind) {
   std::string const variant = digits(cells_thick) + " cells thick; " +
                               (kind == Ring::held        ? "held"
                                : kind == Ring::breathing ? "breathing"
-                                                         : "drifting, spinning");
+                                                         : "drifting, spinning") +
+                              (options.empty() ? "" : "; " + options) + (scheme == "lag" ? "" : "; " + scheme);
   EXPECT_TRUE(at_most(name, variant, "share of the gas that is lost", lost, 1e-12));
   check_conservation(c, name, variant);
   if (kind == Ring::held) {
@@ -104,6 +106,19 @@ TEST(ThinWalls, BreathingRing) {
 }
 TEST(ThinWalls, DriftingRing) {
   for (Real const t : {0.2, 0.32, 0.8, 1.2}) check_ring(t, Ring::drifting);
+}
+
+TEST(ThinWalls, RingWithExplicitLoads) {
+  for (Real const t : {0.2, 0.8})
+    for (Ring const kind : {Ring::held, Ring::breathing, Ring::drifting}) check_ring(t, kind, "", "explicit");
+}
+
+// Cells beside the wall keep their mean and are merged, the others have profiles and are redistributed.
+TEST(ThinWalls, RingWithProfilesAndRedistribution) {
+  std::string const profile = "profile = \"density\"", redistribution = "small_cells = \"redistribution\"";
+  for (std::string const& options : {profile, redistribution, profile + ", " + redistribution})
+    for (Ring const kind : {Ring::held, Ring::breathing, Ring::drifting})
+      check_ring(evidence::full() ? 0.32 : 0.8, kind, options);
 }
 
 /// A channel that an oblique plate closes, through both of its walls; a shock meets the plate.
