@@ -126,15 +126,15 @@ void WallSlopes::refresh(parallel::Comm& comm, ReadCell const& read, ProfileKind
 
 namespace {
 
-/// Weighted least squares for the changes of five values along up to nine terms.
+/// Weighted least squares for the changes of the first `values` of five along up to nine terms.
 class LeastSquares {
  public:
-  explicit LeastSquares(std::size_t terms) : terms_(terms) {}
+  LeastSquares(std::size_t terms, std::size_t values) : terms_(terms), values_(values) {}
 
   void add(std::array<Real, 9> const& term, State const& change, Real weight) {
     for (std::size_t i = 0; i < terms_; ++i) {
       for (std::size_t j = 0; j <= i; ++j) matrix_[i][j] += weight * term[i] * term[j];
-      for (std::size_t q = 0; q < 5; ++q) right_[i][q] += weight * term[i] * change[q];
+      for (std::size_t q = 0; q < values_; ++q) right_[i][q] += weight * term[i] * change[q];
     }
   }
 
@@ -153,7 +153,7 @@ class LeastSquares {
           low[i][j] = low[j][j] > 0 ? sum / low[j][j] : 0;
       }
     value = {};
-    for (std::size_t q = 0; q < 5; ++q) {
+    for (std::size_t q = 0; q < values_; ++q) {
       std::array<Real, 9> s{};
       for (std::size_t i = 0; i < terms_; ++i) {
         if (low[i][i] == 0) continue;
@@ -172,7 +172,7 @@ class LeastSquares {
   }
 
  private:
-  std::size_t terms_;
+  std::size_t terms_, values_;
   std::array<std::array<Real, 9>, 9> matrix_{};
   std::array<State, 9> right_{};
 };
@@ -188,6 +188,18 @@ struct Terms {
   }
 };
 
+/// Change of the density from `u`, at `pressure` (stiffness included), to gas v brought to that pressure without
+/// heat: what entropy makes of it. 0 along simple waves, where a profile at one pressure would be one of entropy.
+Real entropic_change(fluid::Gas const& gas, State const& u, Real pressure, State const& v) {
+  Real const there = gas.pressure(v) + gas.curve.stiffness;
+  if (there == pressure) return v[0] - u[0];
+  if (gas.curve.exponential()) {
+    Real const c = gas.sound_speed(u);
+    return v[0] - u[0] - (there - pressure) / (c * c);
+  }
+  return v[0] * std::pow(pressure / there, 1 / gas.gamma) - u[0];
+}
+
 }  // namespace
 
 bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& h, int dimension, PlacedState const& centre,
@@ -198,7 +210,8 @@ bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& h, int dim
   Real jump = 0;
   State most{};
   Terms const terms(dimension);
-  LeastSquares full(terms.count), plain(terms.axes);
+  std::size_t const values = kind == ProfileKind::density ? 1 : 5;
+  LeastSquares full(terms.count, values), plain(terms.axes, values);
   std::size_t told = 0;
   for (PlacedState const& n : neighbours) {
     State const& v = n.state;
@@ -221,8 +234,11 @@ bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& h, int dim
       x[t] = offset.product[k] / (h[product_axes[k][0]] * h[product_axes[k][1]]);
     }
     if (!(r2 > 1e-6)) continue;
-    State change;
-    for (std::size_t q = 0; q < 5; ++q) change[q] = v[q] - u[q];
+    State change{};
+    if (kind == ProfileKind::density)
+      change[0] = entropic_change(gas, u, pressure, v);
+    else
+      for (std::size_t q = 0; q < 5; ++q) change[q] = v[q] - u[q];
     full.add(x, change, 1 / (r2 * r2));
     ++told;
     if (!n.near) continue;
@@ -329,6 +345,14 @@ Profile const* WallSlopes::profile(GlobalId cell) const {
 State const* WallSlopes::mean(GlobalId cell) const {
   Cell const* const p = find(cell);
   return p && p->slot >= 0 ? &states_[p->slot] : nullptr;
+}
+
+Real WallSlopes::steepness(GlobalId cell) const {
+  Cell const* const p = find(cell);
+  if (!p || p->flat) return 0;
+  Real change = 0;
+  for (std::size_t d = 0; d < 3; ++d) change += std::abs(p->profile.slope[d][0]) * spacing_[static_cast<int>(d)];
+  return change / states_[p->slot][0];
 }
 
 std::size_t WallSlopes::bytes() const {

@@ -10,7 +10,8 @@
 
 namespace brisance::coupling {
 
-/// What varies within a cell: nothing but the density, at the velocity and pressure of the cell, or all.
+/// What varies within a cell: nothing but the density, at the velocity and pressure of the cell and as far as entropy
+/// makes it vary, or all.
 enum class ProfileKind { density, all };
 /// Change of the conserved variables from the mean of a region: linear in the moments about a common point.
 struct Profile {
@@ -63,6 +64,8 @@ class WallSlopes {
   Profile const* profile(GlobalId cell) const;
   /// The mean that the profile of `cell` has at the centroid, at the last refresh; null: unknown.
   fluid::State const* mean(GlobalId cell) const;
+  /// Change of the density across `cell` along all axes together, over its mean; 0 where it is flat.
+  Real steepness(GlobalId cell) const;
   std::size_t bytes() const;
 
  private:
