@@ -371,14 +371,6 @@ State const* WallSlopes::mean(GlobalId cell) const {
   return p && p->slot >= 0 ? &states_[p->slot] : nullptr;
 }
 
-Real WallSlopes::steepness(GlobalId cell) const {
-  Cell const* const p = find(cell);
-  if (!p || p->flat) return 0;
-  Real change = 0;
-  for (std::size_t d = 0; d < 3; ++d) change += std::abs(p->profile.slope[d][0]) * spacing_[static_cast<int>(d)];
-  return change / states_[p->slot][0];
-}
-
 std::size_t WallSlopes::bytes() const {
   return ids_.capacity() * sizeof(GlobalId) + cells_.capacity() * sizeof(Cell) +
          neighbours_.capacity() * sizeof(Neighbour);

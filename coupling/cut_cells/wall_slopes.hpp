@@ -86,8 +86,6 @@ class WallSlopes {
   Profile const* profile(GlobalId cell) const;
   /// The mean that the profile of `cell` has at the centroid, at the last refresh; null: unknown.
   fluid::State const* mean(GlobalId cell) const;
-  /// Change of the density across `cell` along all axes together, over its mean; 0 where it is flat.
-  Real steepness(GlobalId cell) const;
   std::size_t bytes() const;
 
  private:

@@ -49,8 +49,6 @@ constexpr std::array<std::array<std::size_t, 5>, 3> sweep_component{
 constexpr std::uint8_t calm_order = 3;
 /// Cells along the sweep from a face within which a cut cell makes it one of these.
 constexpr Index calm_reach = 3;
-/// Change of the density across a cell, of itself, from which on its profile does that.
-constexpr Real calm_change = 1e-3;
 
 /// Health bits of a full cell after a sweep, with the bands of theory/fluid.md 4.4.
 std::uint64_t judge(State const& u, fluid::Gas const& gas) {
@@ -117,7 +115,7 @@ void WallSweeper::make_profiles(WallRecord const& next, bool same) {
   fluid::Grid const& grid = flow_.grid();
   if (!same || !profiles_.planned()) {
     std::vector<CellBox> near;
-    for (Block const& block : std::as_const(flow_).blocks()) near.push_back(grown(grid, box_of(block), calm_reach));
+    for (Block const& block : std::as_const(flow_).blocks()) near.push_back(grown(grid, box_of(block), 1));
     std::vector<GlobalId> cells;
     for (WallRecord const* r : {record_, &next})
       for (CutCell const& cut : r->geometry.cells)
@@ -133,11 +131,6 @@ void WallSweeper::make_profiles(WallRecord const& next, bool same) {
   profiles_.refresh(comm_, read, profile_kind);
   image_slopes_.refresh(comm_, read, profile_kind);
   profiled_ = true;
-  varies_.assign(record_->geometry.cells.size(), false);
-  for (std::size_t n = 0; n < varies_.size(); ++n) {
-    CellIndex const c = record_->geometry.cells[n].cell;
-    varies_[n] = grid.inside(c) && profiles_.steepness(grid.cell_id(c)) > calm_change;
-  }
   Moments const whole = cell_moments(grid);
   for (auto& [id, wall] : blocks_) {
     Block& block = *flow_.find(id);
@@ -181,17 +174,16 @@ void WallSweeper::calm(Block const& block, WallBlock::Run const& run, int direct
   CellIndex c = block.first();
   c[d == 0 ? 1 : 0] += run.transverse[0], c[d == 2 ? 1 : 2] += run.transverse[1];
   Index const first = c[d], start = std::max(run.begin, 0);
-  auto const varies = [&](Index i) {
+  auto const is_cut = [&](Index i) {
     if (i < run.begin || i >= run.end) return false;
     c[d] = first + i;
-    Index const cut = record_->cut_index(c);
-    return cut >= 0 && varies_[static_cast<std::size_t>(cut)];
+    return record_->cut_index(c) >= 0;
   };
-  Index latest = -2 * calm_reach;  // such a cell met last
+  Index latest = -2 * calm_reach;  // cut cell met last
   Index asked = -calm_reach;
   for (Index f = 0; f <= longest; ++f) {
     for (; asked < f + calm_reach; ++asked)
-      if (varies(start + asked)) latest = asked;
+      if (is_cut(start + asked)) latest = asked;
     if (latest < f - calm_reach) continue;
     std::uint8_t& order = scratch_order_[static_cast<std::size_t>(f) * width + lane];
     order = std::min(order, calm_order);

@@ -132,7 +132,7 @@ class WallSweeper : public fluid::BlockSweeper {
   MirrorCell mirror(Seen const& seen, int direction, std::vector<GlobalId>& wanted) const;
   void refresh_mirrors();
   fluid::State image(MirrorCell const& mirror) const;
-  /// Lowers the order of the faces of a run near cut cells whose profile counts, in its lane of scratch_order_.
+  /// Lowers the order of the faces of a run near cut cells, in its lane of scratch_order_.
   void calm(fluid::Block const& block, WallBlock::Run const& run, int direction, Index longest, std::size_t lane);
   /// Is the face, now or after the step, inside out by more than `part` of a face?
   bool turned(CellIndex const& c, int direction, int side, Real part) const;
@@ -153,7 +153,6 @@ class WallSweeper : public fluid::BlockSweeper {
   std::vector<GlobalId> image_cells_;   ///< by slot
   WallSlopes profiles_, image_slopes_;  ///< of cut cells; of images
   bool profiled_ = false;               ///< the blocks hold states at centres, and images have slopes
-  std::vector<bool> varies_;            ///< by cut cell: has it a profile that counts?
   std::array<int, 3> order_{};          ///< place of each direction in the sweeps of this step
   int sweeps_ = 0;                      ///< begun in this step
   Vec3 done_, under_way_;               ///< time for which each direction has been swept in this step, s
