@@ -61,8 +61,7 @@ void CutCells::spread(std::vector<NearCell> const& cells) {
     for (Index const m : group.members) {
       NearCell const& cell = cells[static_cast<std::size_t>(m)];
       if (cell.mine) regions.emplace_back(cell.id, moved(group.region, group.centre - grid.centre(cell.cell)));
-      for_neighbourhood(grid, cell.cell, profile_reach, [&](CellIndex n) {
-        if (!grid.inside(n) || next_.solid(n) || !sees(next_, cell.cell, n)) return;
+      for_seen(next_, cell.cell, [&](CellIndex n) {
         GlobalId const id = grid.cell_id(n);
         for (Index const other : group.members)
           if (cells[static_cast<std::size_t>(other)].id == id) return;

@@ -8,6 +8,29 @@ namespace brisance::coupling {
 
 using fluid::State;
 
+namespace {
+
+/// Speed of the wall along `normal`: the mean over the pieces of both cells that face this way. The facets of a round
+/// wall that turns go forth and back at their ends, the wall does not.
+Real advance(WallRecord const& record, CellIndex low, CellIndex high, Vec3 const& normal) {
+  Real sum = 0, weight = 0;
+  for (CellIndex const& c : {low, high}) {
+    Index const index = record.cut_index(c);
+    if (index < 0) continue;
+    CutCell const& cut = record.cut(index);
+    for (Index f = cut.first_piece; f < cut.last_piece; ++f) {
+      Piece const& piece = record.geometry.pieces[static_cast<std::size_t>(f)];
+      Real const facing = dot(piece.area, normal), size = norm(piece.area);
+      if (!(facing > 0 && size > 0)) continue;
+      sum += facing * dot(record.wall_velocity(piece.triangle, piece.bary_centroid), piece.area) / size;
+      weight += facing;
+    }
+  }
+  return weight > 0 ? sum / weight : 0;
+}
+
+}  // namespace
+
 State CutCells::profile_flux(CellIndex c, int d, int side, Real dt) const {
   fluid::Grid const& grid = flow_.grid();
   auto const dir = static_cast<std::size_t>(d);
@@ -65,8 +88,8 @@ State CutCells::profile_flux(CellIndex c, int d, int side, Real dt) const {
       if (!(size > 0)) return;
       Vec3 const normal = edge.piece.area / size;
       Vec3 const slip = beside(normal, velocity - wall);
-      Real const rate =
-          0.5 * dt * dot(wall, normal) * (dot(normal, edge.open) * slip[d] - normal[d] * dot(slip, edge.open));
+      Real const rate = 0.5 * dt * advance(next_, low, high, normal) *
+                        (dot(normal, edge.open) * slip[d] - normal[d] * dot(slip, edge.open));
       Vec3 const place = 0.5 * (edge.a + edge.b) - dt / 3 * (wall + velocity);
       State const v = moved_within(flow_.gas(), u, change_between(profile, moments_of_point(place) - face));
       for (std::size_t q = 0; q < 5; ++q) flux[q] += rate * v[q];

@@ -117,9 +117,9 @@ class Redistributor {
   void fit(Neighbourhood& n) {
     std::vector<Index> around;
     for (Index const m : n.members)
-      for_neighbourhood(grid_, cells_[at(m)].cell, profile_reach, [&](CellIndex c) {
+      for_seen(record_, cells_[at(m)].cell, [&](CellIndex c) {
         Index const k = near_.find(c);
-        if (k < 0 || cells_[at(k)].volume <= covered_fraction * full_ || !sees(record_, cells_[at(m)].cell, c)) return;
+        if (k < 0 || cells_[at(k)].volume <= covered_fraction * full_) return;
         if (std::find(n.members.begin(), n.members.end(), k) == n.members.end()) around.push_back(k);
       });
     std::sort(around.begin(), around.end());

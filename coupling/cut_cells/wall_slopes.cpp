@@ -22,20 +22,32 @@ Real relative_jump(Real a, Real b) { return std::abs(a - b) / min(std::abs(a), s
 
 }  // namespace
 
-bool sees(WallRecord const& record, CellIndex c, CellIndex to) {
-  if (c == to) return true;
+WaysAround::WaysAround(WallRecord const& record, CellIndex from)
+    : low_{from[0] - profile_reach, from[1] - profile_reach, from[2] - profile_reach} {
   fluid::Grid const& grid = record.grid();
-  for (int d = 0; d < grid.dimension; ++d) {
-    auto const dir = static_cast<std::size_t>(d);
-    if (c[dir] == to[dir]) continue;
-    int const side = to[dir] > c[dir] ? 1 : 0;
-    if (!(record.aperture(c, d, side) > seen * grid.face_area(d))) continue;
-    CellIndex next = c;
-    next[dir] += side == 0 ? -1 : 1;
-    if (record.solid(next) || record.parts.find(next)) continue;  // a divided cell has another gas behind it
-    if (sees(record, next, to)) return true;
-  }
-  return false;
+  // Nearer ones first, along every axis: the way comes from one step nearer.
+  constexpr std::array<Index, width> outwards{0, 1, -1, 2, -2};
+  static_assert(profile_reach == 2);
+  auto const steps = [&](int axis) { return std::span(outwards).first(axis < grid.dimension ? width : 1); };
+  for (Index const k : steps(2))
+    for (Index const j : steps(1))
+      for (Index const i : steps(0)) {
+        CellIndex const by{i, j, k}, c{from[0] + i, from[1] + j, from[2] + k};
+        bool& seen_here = seen_[place(c)];
+        if (c == from) {
+          seen_here = true;
+          continue;
+        }
+        // A divided cell has another gas behind it.
+        if (!grid.inside(c) || record.solid(c) || record.parts.find(c)) continue;
+        for (int d = 0; d < grid.dimension && !seen_here; ++d) {
+          auto const dir = static_cast<std::size_t>(d);
+          if (by[dir] == 0) continue;
+          CellIndex before = c;
+          before[dir] -= by[dir] > 0 ? 1 : -1;
+          seen_here = seen_[place(before)] && record.aperture(before, d, by[dir] > 0) > seen * grid.face_area(d);
+        }
+      }
 }
 
 State moved_within(fluid::Gas const& gas, State const& u, State const& change) {
@@ -98,20 +110,30 @@ void WallSlopes::plan(parallel::Comm& comm, fluid::Flow& flow, WallRecord const&
     p.slot = 0;
     p.region = moved(region(source), grid.centre(source) - grid.centre(c));
     wanted.push_back(sources[n]);
-    for_neighbourhood(grid, source, profile_reach, [&](CellIndex m) {
-      if (m == source || !grid.inside(m) || record.solid(m) || !sees(record, source, m)) return;
+    for_seen(record, source, [&](CellIndex m) {
+      if (m == source) return;
       neighbours_.push_back({0, moved(region(m), grid.centre(m) - grid.centre(c)), adjacent(source, m)});
       of.push_back(grid.cell_id(m));
     });
     p.last = static_cast<Index>(neighbours_.size());
   }
-  wanted.insert(wanted.end(), of.begin(), of.end());
+  // Cells side by side share most of their neighbours: what came last at a place of a small table needs no second look.
+  constexpr std::size_t recent_cells = 4096;
+  std::vector<std::pair<GlobalId, Index>> recent(recent_cells, {-1, -1});
+  auto const place = [&](GlobalId id) -> auto& { return recent[static_cast<std::size_t>(id) % recent_cells]; };
+  for (GlobalId const id : of)
+    if (auto& last = place(id); last.first != id) last.first = id, wanted.push_back(id);
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   states_.plan(comm, flow, std::move(wanted));
   for (std::size_t n = 0; n < ids_.size(); ++n)
     if (cells_[n].slot >= 0) cells_[n].slot = states_.slot(sources[n]);
-  for (std::size_t n = 0; n < of.size(); ++n) neighbours_[n].slot = states_.slot(of[n]);
+  recent.assign(recent_cells, {-1, -1});
+  for (std::size_t n = 0; n < of.size(); ++n) {
+    auto& last = place(of[n]);
+    if (last.first != of[n]) last = {of[n], states_.slot(of[n])};
+    neighbours_[n].slot = last.second;
+  }
 }
 
 void WallSlopes::clear() {
@@ -128,15 +150,15 @@ void WallSlopes::refresh(parallel::Comm& comm, ReadCell const& read, ProfileKind
 
 namespace {
 
-/// Weighted least squares for the changes of five values along up to nine terms.
+/// Weighted least squares for the changes of the first `values` of five along up to nine terms.
 class LeastSquares {
  public:
-  explicit LeastSquares(std::size_t terms) : terms_(terms) {}
+  LeastSquares(std::size_t terms, std::size_t values) : terms_(terms), values_(values) {}
 
   void add(std::array<Real, 9> const& term, State const& change, Real weight) {
     for (std::size_t i = 0; i < terms_; ++i) {
       for (std::size_t j = 0; j <= i; ++j) matrix_[i][j] += weight * term[i] * term[j];
-      for (std::size_t q = 0; q < 5; ++q) right_[i][q] += weight * term[i] * change[q];
+      for (std::size_t q = 0; q < values_; ++q) right_[i][q] += weight * term[i] * change[q];
     }
   }
 
@@ -155,7 +177,7 @@ class LeastSquares {
           low[i][j] = low[j][j] > 0 ? sum / low[j][j] : 0;
       }
     value = {};
-    for (std::size_t q = 0; q < 5; ++q) {
+    for (std::size_t q = 0; q < values_; ++q) {
       std::array<Real, 9> s{};
       for (std::size_t i = 0; i < terms_; ++i) {
         if (low[i][i] == 0) continue;
@@ -174,7 +196,7 @@ class LeastSquares {
   }
 
  private:
-  std::size_t terms_;
+  std::size_t terms_, values_;
   std::array<std::array<Real, 9>, 9> matrix_{};
   std::array<State, 9> right_{};
 };
@@ -190,6 +212,18 @@ struct Terms {
   }
 };
 
+/// Change of the density from `u`, at `pressure` (stiffness included), to gas v brought to that pressure without
+/// heat: what entropy makes of it. 0 along simple waves, where a profile at one pressure would be one of entropy.
+Real entropic_change(fluid::Gas const& gas, State const& u, Real pressure, State const& v) {
+  Real const there = gas.pressure(v) + gas.curve.stiffness;
+  if (there == pressure) return v[0] - u[0];
+  if (gas.curve.exponential()) {
+    Real const c = gas.sound_speed(u);
+    return v[0] - u[0] - (there - pressure) / (c * c);
+  }
+  return v[0] * std::pow(pressure / there, 1 / gas.gamma) - u[0];
+}
+
 }  // namespace
 
 bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& h, int dimension, PlacedState const& centre,
@@ -200,8 +234,10 @@ bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& h, int dim
   Real jump = 0;
   State most{};
   Terms const terms(dimension);
-  LeastSquares full(terms.count), plain(terms.axes);
+  std::size_t const values = kind == ProfileKind::density ? 1 : 5;
+  LeastSquares full(terms.count, values), plain(terms.axes, values);
   std::size_t told = 0;
+  bool varies = false;
   for (PlacedState const& n : neighbours) {
     State const& v = n.state;
     if (gas.vacuum(v)) {
@@ -223,15 +259,19 @@ bool fit_profile(ProfileKind kind, fluid::Gas const& gas, Vec3 const& h, int dim
       x[t] = offset.product[k] / (h[product_axes[k][0]] * h[product_axes[k][1]]);
     }
     if (!(r2 > 1e-6)) continue;
-    State change;
-    for (std::size_t q = 0; q < 5; ++q) change[q] = v[q] - u[q];
+    State change{};
+    if (kind == ProfileKind::density)
+      change[0] = entropic_change(gas, u, pressure, v);
+    else
+      for (std::size_t q = 0; q < 5; ++q) change[q] = v[q] - u[q];
+    varies = varies || change != State{};
     full.add(x, change, 1 / (r2 * r2));
     ++told;
     if (!n.near) continue;
     plain.add(x, change, 1 / r2);
     for (std::size_t q = 0; q < 5; ++q) most[q] = max(most[q], std::abs(change[q]));
   }
-  if (!(jump < 2 * smooth_jump)) return false;
+  if (!(jump < 2 * smooth_jump) || !varies) return false;
   std::array<State, 9> value{};
   // Curved profiles of all variables feed waves along the wall.
   bool const curved = kind == ProfileKind::density && told > terms.count && full.solve(1e-3, value);

@@ -4,13 +4,15 @@
 #include <span>
 #include <vector>
 
+#include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/moments.hpp"
 #include "coupling/cut_cells/state_gather.hpp"
 #include "coupling/cut_cells/wall_record.hpp"
 
 namespace brisance::coupling {
 
-/// What varies within a cell: nothing but the density, at the velocity and pressure of the cell, or all.
+/// What varies within a cell: nothing but the density, at the velocity and pressure of the cell and as far as entropy
+/// makes it vary, or all.
 enum class ProfileKind { density, all };
 /// Change of the conserved variables from the mean of a region: linear in the moments about a common point.
 struct Profile {
@@ -43,8 +45,29 @@ inline bool adjacent(CellIndex a, CellIndex b) {
   return true;
 }
 
-/// Is there a way from c to a cell near it through open faces, no longer than without walls?
-bool sees(WallRecord const& record, CellIndex c, CellIndex to);
+/// The fluid cells within profile_reach of a cell to which a way leads through open faces, no longer than without
+/// walls.
+class WaysAround {
+ public:
+  WaysAround(WallRecord const& record, CellIndex from);
+  bool reach(CellIndex c) const { return seen_[place(c)]; }
+
+ private:
+  static constexpr Index width = 2 * profile_reach + 1;
+  std::size_t place(CellIndex c) const {
+    return static_cast<std::size_t>(c[0] - low_[0] + width * (c[1] - low_[1] + width * (c[2] - low_[2])));
+  }
+  CellIndex low_;
+  std::array<bool, static_cast<std::size_t>(width* width* width)> seen_{};
+};
+/// Calls visit(c) for these cells, in the order of for_neighbourhood; `from` is one of them.
+template <class Visit>
+void for_seen(WallRecord const& record, CellIndex from, Visit&& visit) {
+  WaysAround const ways(record, from);
+  for_neighbourhood(record.grid(), from, profile_reach, [&](CellIndex c) {
+    if (ways.reach(c)) visit(c);
+  });
+}
 
 class WallSlopes {
  public:
