@@ -119,7 +119,8 @@ class Redistributor {
     for (Index const m : n.members)
       for_seen(record_, cells_[at(m)].cell, [&](CellIndex c) {
         Index const k = near_.find(c);
-        if (k < 0 || cells_[at(k)].volume <= covered_fraction * full_) return;
+        // Alone, a part of a cell need not balance.
+        if (k < 0 || cells_[at(k)].linked || cells_[at(k)].volume <= covered_fraction * full_) return;
         if (std::find(n.members.begin(), n.members.end(), k) == n.members.end()) around.push_back(k);
       });
     std::sort(around.begin(), around.end());
