@@ -34,6 +34,11 @@ brisance_same_digest(bursting-sphere ${scenes}/bursting-sphere.toml 24 --set "fl
 brisance_same_digest(ledger-by-stages ${scenes}/colliding-fragments.toml 60 --set "fluid.cells=[50, 50]" --set end_time=0.3
                      --set "output.ledger=\"stage\"")
 set_tests_properties(same_digest.ledger-by-stages PROPERTIES ENVIRONMENT BREAKING=1)
+# Heat through the walls, friction in divided cells, weight of the gas; weight of the bodies.
+brisance_same_digest(ledger-by-stages-viscous ${PROJECT_SOURCE_DIR}/tests/support/scenes/thin-plates.toml 20
+                     --set "output.ledger=\"stage\"" --set "fluid.gravity.acceleration=[0, -1]")
+brisance_same_digest(ledger-by-stages-heavy ${scenes}/colliding-fragments.toml 20 --set "fluid.cells=[50, 50]"
+                     --set "output.ledger=\"stage\"" --set "solid.gravity=[0, -1]")
 brisance_same_digest(bodies-apart ${PROJECT_SOURCE_DIR}/tests/support/scenes/bodies-apart.toml 40)
 brisance_same_digest(thin-shell ${scenes}/thin-shell.toml 12)
 brisance_same_digest(thin-plates ${PROJECT_SOURCE_DIR}/tests/support/scenes/thin-plates.toml 60)

@@ -197,9 +197,15 @@ void Dynamics::account(Ledger& ledger) {
   ledger.add(Entry::in_energy, supports.sums[6]);
   if (config_.gravity) {
     // Weight as a potential energy of the free particles, and its impulse as one that crosses the boundary.
-    Vec3 const g = *config_.gravity, moment = here.vector(Measures::first_moment);
-    ledger.add(Entry::energy, -dot(g, moment));
-    ledger.add(Entry::in_momentum_x, (elapsed_ * here.value(Measures::free_mass)) * g);
+    // Particle by particle: a product with a sum of this rank would round as the partition has it.
+    Vec3 const g = *config_.gravity;
+    for (Index l = 0; l < solid_.owned(); ++l) {
+      auto const at = static_cast<std::size_t>(l);
+      if (solid_.motion()[at].turns == 0) continue;
+      Real const mass = solid_.mesh().particle(solid_.id(l)).mass;
+      ledger.add(Entry::energy, -mass * dot(g, solid_.pose()[at].x));
+      ledger.add(Entry::in_momentum_x, (elapsed_ * mass) * g);
+    }
   }
   elapsed_ = 0;
   ledger.add(Entry::pressure_impulse, norm(supports.impulse()));

@@ -514,7 +514,8 @@ void CutCells::account(Ledger& ledger) {
     ledger.add(static_cast<Entry>(static_cast<std::size_t>(Entry::in_momentum_x) + d), crossed_[1 + d]);
   ledger.add(Entry::in_energy, crossed_[4]);
   ledger.add(Entry::fluid_in_energy, crossed_[4]);
-  Real const lost_heat = -wall_heat_.value();
+  parallel::ExactSum lost_heat;  // not rounded: the sum of this rank alone depends on the partition
+  lost_heat.subtract(wall_heat_);
   ledger.add(Entry::in_energy, lost_heat);
   ledger.add(Entry::fluid_in_energy, lost_heat);
   ledger.add(Entry::wall_work, wall_work_);

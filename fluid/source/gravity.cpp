@@ -11,7 +11,7 @@ void Gravity::join(Plan& plan) {
   plan.account([this](Ledger& ledger) { account(ledger); });
   Plan::Keep keep;  // the cells are the flow's
   keep.save = [] {};
-  keep.restore = [this] { mass_time_ = work_ = work_size_ = {}; };
+  keep.restore = [this] { forget(); };
   keep.write = [](parallel::ArchiveWriter&) {};
   keep.read = [](parallel::ArchiveReader&) {};
   keep.digest = [](parallel::Digest&) {};
@@ -46,20 +46,26 @@ void Gravity::advance(Real tau) {
         mass += row_mass;
         work += row_work;
       }
-    mass_time_.add(tau * mass);
+    for (std::size_t d = 0; d < 3; ++d) impulse_[d].add(tau * mass * g_[static_cast<int>(d)]);
+    impulse_size_.add(tau * mass * norm(g_));
     work_.add(work);
     work_size_.add(std::abs(work));
   }
 }
 
 void Gravity::account(Ledger& ledger) {
-  Real const mass_time = mass_time_.value();
-  ledger.add(Entry::in_momentum_x, mass_time * g_);
-  ledger.add(Entry::pressure_impulse, mass_time * norm(g_));
+  for (std::size_t d = 0; d < 3; ++d)
+    ledger.add(static_cast<Entry>(static_cast<std::size_t>(Entry::in_momentum_x) + d), impulse_[d]);
+  ledger.add(Entry::pressure_impulse, impulse_size_);
   ledger.add(Entry::in_energy, work_);
   ledger.add(Entry::fluid_in_energy, work_);
   ledger.add(Entry::exchanged_energy, work_size_);
-  mass_time_ = work_ = work_size_ = {};
+  forget();
+}
+
+void Gravity::forget() {
+  impulse_ = {};
+  impulse_size_ = work_ = work_size_ = {};
 }
 
 }  // namespace brisance::fluid

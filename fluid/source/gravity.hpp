@@ -1,5 +1,7 @@
 // The effect fluid.gravity: a constant acceleration of the gas.
 #pragma once
+#include <array>
+
 #include "core/model/plan.hpp"
 #include "fluid/flow.hpp"
 #include "fluid/fluid_volume.hpp"
@@ -23,12 +25,14 @@ class Gravity : public Effect {
 
  private:
   void account(Ledger& ledger);
+  void forget();  ///< what it gave
 
   Vec3 g_;  // m/s2
   Flow& flow_;
   FluidVolume volume_;
-  parallel::ExactSum mass_time_;  ///< sum of mass * tau since the last account: kg s
-  parallel::ExactSum work_, work_size_;
+  /// Since the last account, block by block: a product with a sum of this rank would round as the partition has it.
+  std::array<parallel::ExactSum, 3> impulse_;
+  parallel::ExactSum impulse_size_, work_, work_size_;
 };
 
 }  // namespace brisance::fluid
