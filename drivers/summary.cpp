@@ -108,7 +108,8 @@ void write_summary(World& world, RunState const& run, std::string const& directo
                            saved.cell_sweeps,
                            saved.cell_sweeps_skipped,
                            world.dynamics ? world.dynamics->links_asleep() : 0,
-                           world.cut_cells ? world.cut_cells->cost().moving : 0};
+                           world.cut_cells ? world.cut_cells->cost().moving : 0,
+                           world.cut_cells ? world.cut_cells->cost().mixed : 0};
   comm.sum(std::span(counts));
   parallel::Bytes bytes(mine.size() * sizeof(double));
   std::memcpy(bytes.data(), mine.data(), bytes.size());
@@ -189,6 +190,7 @@ void write_summary(World& world, RunState const& run, std::string const& directo
           {"exchange_s", wall_s[2]},
           {"cut_cells_per_cell", cells_done > 0 ? static_cast<double>(counts[4]) / cells_done : 0},
           {"moving_cut_cells", counts[10]},
+          {"mixed_divided_cells", counts[11]},
           {"us_per_moving_cut_cell", counts[10] > 0 ? nlohmann::json(1e6 * wall_s[0] / static_cast<double>(counts[10]))
                                                     : nlohmann::json(nullptr)}};
     }

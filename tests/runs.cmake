@@ -145,6 +145,13 @@ brisance_expect(scene_multirate_with_sharp_step CODE 2 LABELS unit ABSENT ${runs
 brisance_expect(summary_solid_sleep CODE 0 LABELS unit MESSAGE "\"link_updates_skipped\": [1-9]"
                 COMMAND bash -c "$<TARGET_FILE:brisance> run ${PROJECT_SOURCE_DIR}/tests/support/scenes/struck-bar.toml \
 --out ${runs}/solid-sleep --steps 20 --quiet && cat ${runs}/solid-sleep/summary.json")
+# Cells of a thin wall whose parts cannot be followed are counted, the same on any number of ranks, and told of.
+foreach(ranks 1 3)
+  brisance_expect(summary_mixed_divided_cells_${ranks} CODE 0 RANKS ${ranks} LABELS unit
+                  MESSAGE "a thin wall leaked within a cell: 1 time.*\"mixed_divided_cells\": 1,"
+                  COMMAND bash -c "$<TARGET_FILE:brisance> run ${scenes}/bursting-shell.toml --out ${runs}/mixed-${ranks} \
+--steps 80 --quiet && cat ${runs}/mixed-${ranks}/summary.json")
+endforeach()
 brisance_expect(check_multirate CODE 0 LABELS unit MESSAGE "multi-rate steps.*4 levels, [12][.0-9]+ times fewer links"
                 COMMAND ${program} check ${PROJECT_SOURCE_DIR}/tests/support/scenes/graded-bar.toml)
 brisance_expect(scene_more_ranks_than_blocks CODE 2 RANKS 3 LABELS parallel ABSENT ${runs}/ranks

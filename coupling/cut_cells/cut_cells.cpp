@@ -130,6 +130,7 @@ void CutCells::join(Plan& plan) {
   });
   if (limited_) plan.limit("coupling.light_solid", [this](Clock const&) { return weigh().second; });
   remark_ = [&plan](std::string text) { plan.remark(std::move(text)); };
+  plan.finding([this] { return remark_on_mixed(); });
   plan.health([this](Clock const&) { return judge(); });
   plan.account([this](Ledger& ledger) { account(ledger); });
   Plan::Keep keep;
@@ -449,6 +450,7 @@ void CutCells::fill() {
   ++cost_.steps;
   for (CutCell const& cut : next_.geometry.cells) cost_.cut += owned(cut.cell) ? 1 : 0;
   // Mirror states hold the velocity of the wall: they are made anew when it changed, as a restart would make them.
+  for (CellUnits const& units : parts_.cells()) cost_.mixed += units.mixed && owned(units.cell) ? 1 : 0;
   std::vector<CellBox> differences;
   if (news_) differences = WallRecord::differences(record_, next_);
   std::int64_t changed = differences.empty() ? 0 : 1;
@@ -527,6 +529,16 @@ void CutCells::account(Ledger& ledger) {
   for (auto& sum : crossed_) sum = {};
   for (auto& sum : ambient_given_) sum = {};
   wall_work_ = pressure_impulse_ = exchanged_energy_ = wall_heat_ = {};
+}
+
+std::string CutCells::remark_on_mixed() const {
+  std::int64_t mixed = cost_.mixed;
+  comm_.sum(std::span(&mixed, 1));
+  if (mixed == 0) return {};
+  return "a thin wall leaked within a cell: " + std::to_string(mixed) +
+         " time(s) the parts into which it divides one could not be followed through a step, and shared their gas. "
+         "Mass, momentum and energy are kept. Smaller steps (fluid.euler.cfl) or finer cells help; "
+         "geometry.mixed_divided_cells in summary.json counts such cells.";
 }
 
 void CutCells::digest(parallel::Digest& digest) const {

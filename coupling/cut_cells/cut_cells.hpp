@@ -94,6 +94,8 @@ class CutCells : public Effect {
   Merging merge_everywhere(std::vector<NearCell>& cells);
   /// Where the solid is lightest beside the gas of this rank; and the step it allows, s.
   std::pair<LightestPlace, Real> weigh() const;
+  /// Collective. What a user should know at the end of cells that mixed the gas of their parts; mostly nothing.
+  std::string remark_on_mixed() const;
   /// Collective. A remark where the initial gas outweighs the solid.
   void remark_on_start();
   // pieces of them

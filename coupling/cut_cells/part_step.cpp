@@ -165,7 +165,7 @@ void PartStep::join(Work& w) {
     if (!fits && least > 0) continue;
     for (std::size_t i = 0; i < u.count; ++i)
       u.share[i] = members[group[i]] > 1 ? static_cast<Index>(group[i]) : Index{-1};
-    mixed_ += least == 0;
+    u.mixed = least == 0;
     return;
   }
 }
@@ -174,7 +174,6 @@ void PartStep::match(WallRecord const& before, WallRecord const& after, std::spa
   before_ = &before;
   after_ = &after;
   clear();
-  mixed_ = 0;
   std::vector<CellIndex> divided;
   for (WallRecord const* r : {&before, &after})
     for (PartedCell const& p : r->parts.cells)

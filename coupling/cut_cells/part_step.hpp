@@ -15,6 +15,7 @@ struct CellUnits {
   std::size_t parts_before = 1;
   std::array<Index, most> before{};            ///< part at t^n of a unit; -1: it is new
   std::array<std::size_t, most_parts> unit{};  ///< of a part at t^n
+  bool mixed = false;                          ///< no assignment fits: all of its parts share their gas
   std::array<Index, most> share{};             ///< units of equal numbers share their gas in this step; -1: no other
 };
 
@@ -37,7 +38,6 @@ class PartStep {
   /// The unit of cell `c` that a piece of `after` sweeps there.
   std::size_t swept_unit(CellIndex const& c, Index piece) const;
   std::size_t bytes() const { return cells_.capacity() * sizeof(CellUnits) + places_.bytes(); }
-  Index mixed() const { return mixed_; }  ///< cells in which no assignment fits: all of their parts share their gas
 
  private:
   /// A part of a cell at t^{n+1} (`after`) or at t^n.
@@ -55,7 +55,6 @@ class PartStep {
   WallRecord const* after_ = nullptr;
   std::vector<CellUnits> cells_;  ///< by key
   CellPlaces places_;
-  Index mixed_ = 0;
 };
 
 }  // namespace brisance::coupling

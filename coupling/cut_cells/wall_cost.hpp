@@ -14,6 +14,7 @@ struct WallCost {
   std::int64_t steps = 0;
   std::int64_t cut = 0;     ///< cut cells of this rank's blocks, summed over the steps
   std::int64_t moving = 0;  ///< those that hold a piece that moved
+  std::int64_t mixed = 0;   ///< those divided by a thin wall whose parts could not be followed and shared their gas
 };
 
 /// Adds the time of its life to a sum.
