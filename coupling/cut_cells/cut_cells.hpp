@@ -200,6 +200,8 @@ class CutCells : public Effect {
   /// that of the face, and of the part that the wall opened or closed in this step.
   fluid::State profile_flux(CellIndex c, int d, int side, Real dt) const;
   Verdict judge() const;
+  /// For pairs that are taken back and for checkpoints.
+  Plan::Keep keep();
   void account(Ledger& ledger);
   void digest(parallel::Digest& digest) const;
   bool owned(CellIndex c) const;

@@ -5,6 +5,7 @@
 
 #include "coupling/cut_cells/cell_geometry.hpp"
 #include "coupling/cut_cells/cut_cells.hpp"
+#include "coupling/cut_cells/near_cells.hpp"
 #include "coupling/cut_cells/wall_centroids.hpp"
 
 namespace brisance::coupling {
@@ -14,7 +15,7 @@ using fluid::State;
 
 void CutCells::spread(std::vector<NearCell> const& cells) {
   fluid::Grid const& grid = flow_.grid();
-  Real const covered = covered_fraction * grid.cell_volume();
+  Real const full = grid.cell_volume();
   struct Group {
     Index first;
     Vec3 centre;                 ///< of its first member with fluid
@@ -27,7 +28,7 @@ void CutCells::spread(std::vector<NearCell> const& cells) {
   std::vector<Group> groups;
   for (std::size_t n = 0; n < cells.size(); ++n) {
     NearCell const& cell = cells[n];
-    if (!cell.grouped || cell.volume <= covered) continue;
+    if (!cell.grouped || covered(cell, full)) continue;
     Index& group = group_of[static_cast<std::size_t>(cell.group)];
     if (group < 0) {
       group = static_cast<Index>(groups.size());

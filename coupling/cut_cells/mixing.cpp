@@ -35,10 +35,9 @@ class Merger {
       NearCell const& c = cell(i);
       for (Index j = i - 1; c.share >= 0 && j >= 0 && cell(j).id == c.id; --j)
         if (cell(j).share == c.share) unite(j, i);
-      bool const covered = c.volume <= covered_fraction * full_;
       if (c.amount == State{}) continue;  // a void has nothing to share, in a crack that opens as in a covered cell
       bool const whole = c.unit == 0 && c.volume >= small_;
-      if (c.settled || (!covered && (whole || near_.drains(c)))) continue;
+      if (c.settled || (!covered(c, full_) && (whole || near_.drains(c)))) continue;
       Index const t = near_.target(i, {});
       if (t >= 0) unite(i, t);
     }
@@ -77,17 +76,15 @@ class Merger {
   void bind_inside_out() {
     speaker_.resize(cells_.size());
     std::iota(speaker_.begin(), speaker_.end(), Index{0});
-    auto const covered = [&](NearCell const& c) {
-      return c.unit == 0 && !c.linked && c.volume <= covered_fraction * full_;
-    };
+    auto const bindable = [&](NearCell const& c) { return c.unit == 0 && !c.linked && covered(c, full_); };
     std::vector<Index> bound;
     for (Index i = 0; i < count(); ++i)
-      for (int d = 0; d < grid_.dimension && covered(cell(i)); ++d) {
+      for (int d = 0; d < grid_.dimension && bindable(cell(i)); ++d) {
         if (cell(i).aperture[static_cast<std::size_t>(d)][1] >= -inside_out * grid_.face_area(d)) continue;
         CellIndex high = cell(i).cell;
         high[static_cast<std::size_t>(d)] += 1;
         Index const j = near_.find(high);
-        if (j < 0 || !covered(cell(j))) continue;
+        if (j < 0 || !bindable(cell(j))) continue;
         unite(i, j);
         bound.insert(bound.end(), {i, j});
       }
@@ -151,7 +148,7 @@ class Merger {
       for (Index i = group; i >= 0; i = next_[at(i)])
         for_shell(grid_, cell(i).cell, distance, [&](CellIndex n) {
           Index const j = near_.find(n);
-          if (j >= 0 && root(j) != group && cell(j).volume > covered_fraction * full_)
+          if (j >= 0 && root(j) != group && !covered(cell(j), full_))
             NearCells::consider(j, cell(j).volume, best, best_score);
         });
       if (best >= 0) return best;

@@ -68,7 +68,7 @@ Index NearCells::target(Index i, std::span<Index const> taken) const {
   Index best = -1, turned = -1;
   Real best_score = 0, turned_score = 0;
   bool open = false;
-  bool const covered = c.volume <= covered_fraction * grid_.cell_volume();
+  Real const full = grid_.cell_volume();
   for (int d = 0; d < grid_.dimension; ++d)
     for (int side = 0; side < 2; ++side) {
       CellIndex n = c.cell;
@@ -76,8 +76,7 @@ Index NearCells::target(Index i, std::span<Index const> taken) const {
       Real const a = c.aperture[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)] / grid_.face_area(d);
       Index const j = find(n);
       if (!offered(j)) continue;
-      if (covered && a < -inside_out && cell(j).volume > covered_fraction * grid_.cell_volume())
-        consider(j, -a, turned, turned_score);
+      if (covered(c, full) && a < -inside_out && !covered(cell(j), full)) consider(j, -a, turned, turned_score);
       if (!(a > 1e-12)) continue;
       open = true;
       if (!(cell(j).volume > c.volume)) continue;

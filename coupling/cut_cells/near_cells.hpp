@@ -9,6 +9,9 @@ namespace brisance::coupling {
 /// Outside the admissible set beyond rounding.
 bool inadmissible(Real volume, fluid::State const& m);
 
+/// Holds no fluid that a state could stand for, or less than none where bodies overlap; `full`: volume of a cell, m3.
+inline bool covered(NearCell const& c, Real full) { return c.volume <= covered_fraction * full; }
+
 /// A list of cells sorted by id, seen as a part of the grid.
 class NearCells {
  public:

@@ -65,7 +65,7 @@ class Redistributor {
   /// Empty and covered cells, and what the balance left without mass or pressure, are for merging.
   bool sound(Index j) const {
     NearCell const& c = cells_[at(j)];
-    return c.volume > covered_fraction * full_ && !inadmissible(c.volume, c.amount) && !gas_.vacuum(state(at(j)));
+    return !covered(c, full_) && !inadmissible(c.volume, c.amount) && !gas_.vacuum(state(at(j)));
   }
 
   /// From the centre of the small cell of n to that of cell j, m.
@@ -120,7 +120,7 @@ class Redistributor {
       for_seen(record_, cells_[at(m)].cell, [&](CellIndex c) {
         Index const k = near_.find(c);
         // Alone, a part of a cell need not balance.
-        if (k < 0 || cells_[at(k)].linked || cells_[at(k)].volume <= covered_fraction * full_) return;
+        if (k < 0 || cells_[at(k)].linked || covered(cells_[at(k)], full_)) return;
         if (std::find(n.members.begin(), n.members.end(), k) == n.members.end()) around.push_back(k);
       });
     std::sort(around.begin(), around.end());
