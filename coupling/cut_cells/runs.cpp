@@ -10,11 +10,26 @@ namespace brisance::coupling {
 
 using fluid::Block;
 
+namespace {
+/// Part of what the cells on both sides of a face hold that its opening must have for the sweeps to look through. They
+/// take faces as open all over: the jet through a slit, such as between bodies that begin to part, would fill the cell
+/// behind it as if it came through the whole face, and the next sweep would find that pressure there.
+constexpr Real slit = 0.1;
+}  // namespace
+
+bool WallSweeper::wide(CellIndex const& c, int direction, int side) const {
+  CellIndex const other = beside(c, direction, side == 0 ? -1 : 1);
+  Lattice const& lattice = record_->lattice();
+  Real const open = record_->aperture(c, direction, side) / lattice.face_area(direction);
+  if (!(open > covered_fraction)) return false;
+  if (open >= slit) return true;
+  return open >= slit * min(record_->volume(c), record_->volume(other)) / lattice.cell_volume();
+}
+
 bool WallSweeper::passes(CellIndex const& c, int direction, int side) const {
   CellIndex low = c, next = c;
   (side == 0 ? low : next)[static_cast<std::size_t>(direction)] += side == 0 ? -1 : 1;
-  return record_->aperture(c, direction, side) > covered_fraction * record_->lattice().face_area(direction) &&
-         !record_->solid(side == 0 ? low : next) && record_->parts.joined(low, direction);
+  return wide(c, direction, side) && !record_->solid(side == 0 ? low : next) && record_->parts.joined(low, direction);
 }
 
 bool WallSweeper::reaches(CellIndex const& home, CellIndex const& image) const {
@@ -146,10 +161,7 @@ bool WallSweeper::two_sides(CellIndex low, int direction) const {
   CellIndex high = low;
   ++high[d];
   if (low[d] < 0 || high[d] >= grid.cells[d] || record_->cut_index(low) < 0) return false;
-  auto const open = [&](CellIndex c, int along, int side) {
-    return record_->aperture(c, along, side) > covered_fraction * record_->lattice().face_area(along);
-  };
-  if (open(low, direction, 1)) return false;
+  if (wide(low, direction, 1)) return false;
   if (record_->parts.find(low) || record_->parts.find(high)) return true;
   // Around the edge of the face, as over a crest of the wall, it is the same fluid.
   for (int e = 0; e < grid.dimension; ++e)
@@ -160,7 +172,7 @@ bool WallSweeper::two_sides(CellIndex low, int direction) const {
       ++across[d];
       // What opens there may be the gas of either side.
       if (record_->parts.find(beside) || record_->parts.find(across)) continue;
-      if (open(low, e, side) && open(high, e, side) && open(beside, direction, 1)) return false;
+      if (wide(low, e, side) && wide(high, e, side) && wide(beside, direction, 1)) return false;
     }
   return true;
 }

@@ -149,6 +149,8 @@ class WallSweeper : public fluid::BlockSweeper {
   /// Does the stencil of the face between a gas and a solid cell across `direction` see another gas there?
   bool solid_shows_another(CellIndex const& solid, CellIndex const& gas, int direction, fluid::Block const& block,
                            WallBlock const& wall);
+  /// Is the low (0) or high (1) face of a cell open, by more than a slit?
+  bool wide(CellIndex const& c, int direction, int side) const;
   /// Is the gas of a cell (of its largest part) one with that beyond its low (0) or high (1) face?
   bool passes(CellIndex const& c, int direction, int side) const;
   /// Does it come from one cell to another along the axes, one after the other?

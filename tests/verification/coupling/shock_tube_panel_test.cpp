@@ -70,36 +70,40 @@ TEST(ShockTubePanel, BendsAsTheReference) {
 /// At its foot the panel turns by a thousandth: one half of its base lifts off the step, the other sinks into it. Where
 /// the step lies on a grid plane the faces between the cells there are inside out all over; elsewhere a wedge of gas
 /// lies in cells that count as solid. No force and no gas may come of either: before the shock has come around the
-/// panel the gas behind it only gives way to the panel.
+/// panel the gas behind it only gives way to the panel. On 133 cells the pivot lies inside a cell: through the slit
+/// under the half that lifts off no more comes than a slit lets through, with either wall pressure.
+void foot(int cells, std::string const& wall_pressure) {
+  Real const h = 100e-3 / cells;
+  std::ostringstream grid;
+  grid << "fluid.cells=[" << cells << ", " << cells * 7 / 10 << "]";
+  CoupledCase c(shipped_scene("panel-in-a-shock-tube"),
+                {"end_time=\"0.12 ms\"", "fluid.low=[\"200 mm\", \"10 mm\"]",
+                 "fluid.high=[\"300 mm\", \"" + std::to_string(10 + 100.0 * (cells * 7 / 10) / cells) + " mm\"]",
+                 grid.str(), "coupling.cut_cells.wall_pressure=\"" + wall_pressure + "\""});
+  c.run();
+  fluid::Gas const& gas = c.world->flow->gas();
+  Real const still = 100e3 / std::pow(1.2, 1.4);
+  Real fastest = 0, least = 1, most = 1;
+  c.for_fluid([&](fluid::CellIndex cell, fluid::State const& u, Real volume) {
+    Vec3 const x = c.world->flow->grid().centre(cell);
+    if (volume < 0.5 * h * h || x.y > 30e-3 || std::abs(x.x - 265.5e-3) > 5e-3) return;
+    if (x.x > 265.5e-3) fastest = max(fastest, norm(Vec3{u[1], u[2], 0}) / u[0]);
+    Real const entropy = gas.pressure(u) / std::pow(u[0], 1.4) / still;
+    least = min(least, entropy);
+    most = max(most, entropy);
+  });
+  std::string const variant = "foot of the panel; " + grid.str() + "; " + wall_pressure;
+  EXPECT_TRUE(
+      evidence::at_most("V9", "elastic panel in a shock tube", variant, "speed behind the panel, m/s", fastest, 2));
+  EXPECT_TRUE(evidence::at_most("V9", "elastic panel in a shock tube", variant, "entropy above that of still air",
+                                most - 1, 0.05));
+  EXPECT_TRUE(evidence::at_most("V9", "elastic panel in a shock tube", variant, "entropy below that of still air",
+                                1 - least, 0.005));
+}
+
 TEST(ShockTubePanel, NothingComesThroughItsFoot) {
-  for (int const cells : {100, 150, 200}) {
-    Real const h = 100e-3 / cells;
-    std::ostringstream grid;
-    grid << "fluid.cells=[" << cells << ", " << cells * 7 / 10 << "]";
-    CoupledCase c(
-        shipped_scene("panel-in-a-shock-tube"),
-        {"end_time=\"0.12 ms\"", "fluid.low=[\"200 mm\", \"10 mm\"]",
-         "fluid.high=[\"300 mm\", \"" + std::to_string(10 + 100.0 * (cells * 7 / 10) / cells) + " mm\"]", grid.str()});
-    c.run();
-    fluid::Gas const& gas = c.world->flow->gas();
-    Real const still = 100e3 / std::pow(1.2, 1.4);
-    Real fastest = 0, least = 1, most = 1;
-    c.for_fluid([&](fluid::CellIndex cell, fluid::State const& u, Real volume) {
-      Vec3 const x = c.world->flow->grid().centre(cell);
-      if (volume < 0.5 * h * h || x.y > 30e-3 || std::abs(x.x - 265.5e-3) > 5e-3) return;
-      if (x.x > 265.5e-3) fastest = max(fastest, norm(Vec3{u[1], u[2], 0}) / u[0]);
-      Real const entropy = gas.pressure(u) / std::pow(u[0], 1.4) / still;
-      least = min(least, entropy);
-      most = max(most, entropy);
-    });
-    std::string const variant = "foot of the panel; " + grid.str();
-    EXPECT_TRUE(
-        evidence::at_most("V9", "elastic panel in a shock tube", variant, "speed behind the panel, m/s", fastest, 2));
-    EXPECT_TRUE(evidence::at_most("V9", "elastic panel in a shock tube", variant, "entropy above that of still air",
-                                  most - 1, 0.05));
-    EXPECT_TRUE(evidence::at_most("V9", "elastic panel in a shock tube", variant, "entropy below that of still air",
-                                  1 - least, 0.005));
-  }
+  for (int const cells : {100, 133, 150, 200}) foot(cells, "half_riemann");
+  foot(133, "cell");
 }
 
 }  // namespace
